@@ -1,0 +1,34 @@
+# The few functions with which scree's folders describe themselves.
+
+# scree_add_subfolders(FOLDER...): enters every folder below that has a CMakeLists.txt, in name order. A new plugin is
+# a new folder and nothing else.
+function(scree_add_subfolders)
+  foreach(top IN LISTS ARGN)
+    file(GLOB_RECURSE lists CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
+         ${CMAKE_CURRENT_SOURCE_DIR}/${top}/CMakeLists.txt)
+    list(SORT lists)
+    foreach(list_file IN LISTS lists)
+      get_filename_component(folder ${list_file} DIRECTORY)
+      # A project of its own (an example of an out-of-tree plugin, a test fixture) is not part of this build.
+      file(STRINGS ${list_file} own_project REGEX "^project\\(")
+      if(NOT own_project)
+        add_subdirectory(${folder})
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+# scree_add_test(NAME SOURCES ... [LIBRARIES ...] [ENVIRONMENT ...]): a GoogleTest program; each case is a test of CTest.
+function(scree_add_test name)
+  if(NOT SCREE_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;ENVIRONMENT;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE scree::core scree_flags GTest::gtest_main ${arg_LIBRARIES})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  gtest_discover_tests(${name} TEST_PREFIX ${name}: DISCOVERY_MODE PRE_TEST
+    PROPERTIES ENVIRONMENT "${arg_ENVIRONMENT}" LABELS "${arg_LABELS}")
+endfunction()
+
+include(ScreePlugin)
