@@ -18,17 +18,27 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 set(SCREE_PLUGIN_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/scree/plugins)
 
+# ccache with paths relative to this tree: two clones of it share what they compiled.
 find_program(SCREE_CCACHE ccache)
-if(SCREE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${SCREE_CCACHE})
+if(SCREE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
+    ${SCREE_CCACHE})
 endif()
 
 # Private flags of every scree target: warnings are errors, and no contraction into fused multiply-add across
 # statements decides a result (ADR 0003).
 add_library(scree_flags INTERFACE)
+# -Wno-restrict: GCC 12 reports std::string's own concatenation (GCC bug 105651).
 target_compile_options(scree_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  -Wnon-virtual-dtor -Woverloaded-virtual -Werror $<$<BOOL:${SCREE_NATIVE}>:-march=native>
+  -Wnon-virtual-dtor -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Werror $<$<BOOL:${SCREE_NATIVE}>:-march=native>
   $<$<CONFIG:Release>:-O3> -fno-math-errno -fno-trapping-math)
+find_program(SCREE_MOLD mold)
+find_program(SCREE_LLD ld.lld)
+if(SCREE_MOLD)
+  target_link_options(scree_flags INTERFACE -fuse-ld=mold)
+elseif(SCREE_LLD)
+  target_link_options(scree_flags INTERFACE -fuse-ld=lld)
+endif()
 if(SCREE_SANITIZE)
   target_compile_options(scree_flags INTERFACE -fsanitize=${SCREE_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(scree_flags INTERFACE -fsanitize=${SCREE_SANITIZE})

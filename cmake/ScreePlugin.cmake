@@ -1,4 +1,4 @@
-# scree_add_plugin(NAME SOURCES ... [LIBRARIES ...] [TEST_SOURCES ...] [TEST_LIBRARIES ...] [INTERNAL_LIBRARY])
+# scree_add_plugin(NAME SOURCES ... [LIBRARIES ...] [TEST_SOURCES ...] [TEST_LIBRARIES ...])
 #
 # Builds the shared library of a plugin, in the tree and outside of it alike, and puts it where the host looks.
 # TEST_SOURCES become the unit test NAME_test, which is linked with the plugin's own sources.
@@ -12,6 +12,7 @@ function(scree_add_plugin name)
     target_link_libraries(${name} PRIVATE scree_flags)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${SCREE_PLUGIN_OUTPUT_DIRECTORY}
       INSTALL_RPATH "$ORIGIN/../..")
+    add_dependencies(scree_runtime ${name})
     install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/scree/plugins)
     if(arg_TEST_SOURCES)
       scree_add_test(${name}_test SOURCES ${arg_SOURCES} ${arg_TEST_SOURCES}

@@ -18,9 +18,9 @@ struct SourceLocation {
 
 /// Which exit code a failure becomes (DESIGN section 5).
 enum class ErrorKind {
-  usage = 2,      ///< command line, scene or plugin: the user can correct it
-  diverged = 3,   ///< NaN, overflow or exploding energy during a step
-  io = 4,         ///< a file could not be read or written
+  usage = 2,     ///< command line, scene or plugin: the user can correct it
+  diverged = 3,  ///< NaN, overflow or exploding energy during a step
+  io = 4,        ///< a file could not be read or written
 };
 
 /// The one exception type of scree. Its text is complete: place, what is wrong, what is valid, what to do.

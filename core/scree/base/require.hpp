@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 /// Throws std::logic_error when a caller broke a contract; for checks that run once per batch.
-#define SCREE_REQUIRE(condition, sentence)                 \
-  do {                                                     \
-    if (!(condition)) throw std::logic_error{sentence};    \
+#define SCREE_REQUIRE(condition, sentence)              \
+  do {                                                  \
+    if (!(condition)) throw std::logic_error{sentence}; \
   } while (false)
 
 /// Debug-only check for the insides of loops.

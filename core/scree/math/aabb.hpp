@@ -35,9 +35,7 @@ constexpr bool contains(const Aabb& box, const Vec3& p) {
          p.z <= box.upper.z;
 }
 
-constexpr Aabb expanded(const Aabb& a, double by) {
-  return {a.lower - Vec3{by, by, by}, a.upper + Vec3{by, by, by}};
-}
+constexpr Aabb expanded(const Aabb& a, double by) { return {a.lower - Vec3{by, by, by}, a.upper + Vec3{by, by, by}}; }
 
 constexpr Aabb merged(const Aabb& a, const Aabb& b) {
   return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y), std::min(a.lower.z, b.lower.z)},

@@ -20,8 +20,6 @@ constexpr Vec3 transform_back(const Pose& p, const Vec3& parent) {
 constexpr Pose operator*(const Pose& parent, const Pose& child) {
   return {transform(parent, child.position), parent.orientation * child.orientation};
 }
-constexpr Pose inverse(const Pose& p) {
-  return {-rotate_back(p.orientation, p.position), conjugate(p.orientation)};
-}
+constexpr Pose inverse(const Pose& p) { return {-rotate_back(p.orientation, p.position), conjugate(p.orientation)}; }
 
 }  // namespace scree
