@@ -25,13 +25,13 @@ if(SCREE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     ${SCREE_CCACHE})
 endif()
 
-# Private flags of every scree target: warnings are errors, and no contraction into fused multiply-add across
-# statements decides a result (ADR 0003).
+# Private flags of every scree target: warnings are errors, and no product is fused with a sum behind the code's back,
+# so that the bits of a result do not depend on inlining or on the machine (ADR 0003).
 add_library(scree_flags INTERFACE)
 # -Wno-restrict: GCC 12 reports std::string's own concatenation (GCC bug 105651).
 target_compile_options(scree_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   -Wnon-virtual-dtor -Woverloaded-virtual $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Werror $<$<BOOL:${SCREE_NATIVE}>:-march=native>
-  $<$<CONFIG:Release>:-O3> -fno-math-errno -fno-trapping-math)
+  $<$<CONFIG:Release>:-O3> -ffp-contract=off -fno-math-errno -fno-trapping-math)
 find_program(SCREE_MOLD mold)
 find_program(SCREE_LLD ld.lld)
 if(SCREE_MOLD)
