@@ -1,11 +1,13 @@
 // Parameter: the description of one setting, as data.
 //
-// A plugin states its settings once, as a list of Parameters. Parsing, unit conversion, range checks, messages about
-// unknown keys, `scree plugins show`, the JSON Schema and the printed defaults all come from that list.
+// A plugin states its settings once, as a list of Parameters. Parsing, unit
+// conversion, range checks, messages about unknown keys, `scree plugins show`,
+// the JSON Schema and the printed defaults all come from that list.
 //
 //     Parameter::number("radius", "m", "outer radius of the roll").above(0.0)
-//     Parameter::vector("acceleration", "m/s2", "of free fall").by_default(Vec3{0, 0, -9.81})
-//     Parameter::choice("law", {"stokes", "schiller_naumann"}, "drag coefficient").by_default("stokes")
+//     Parameter::vector("acceleration", "m/s2", "of free
+//     fall").by_default(Vec3{0, 0, -9.81}) Parameter::choice("law", {"stokes",
+//     "schiller_naumann"}, "drag coefficient").by_default("stokes")
 #pragma once
 
 #include <cstdint>
@@ -22,7 +24,7 @@ namespace scree {
 enum class ValueKind {
   boolean,
   integer,
-  number,   ///< a TOML number in SI, or a string with a unit such as "35 kV"
+  number, ///< a TOML number in SI, or a string with a unit such as "35 kV"
   text,
   choice,   ///< one of a list of words
   path,     ///< a file, relative to the scene that names it
@@ -31,40 +33,59 @@ enum class ValueKind {
   texts,    ///< a list of strings
   table,    ///< a nested table with members of its own
   tables,   ///< a list of such tables
-  variant,  ///< a table whose `type` chooses the members, for example a size distribution
-  variants,  ///< a list of such tables
-  columns,  ///< a table of free keys, each a variant or a number: for example body attributes by name
+  variant,  ///< a table whose `type` chooses the members, for example a size
+            ///< distribution
+  variants, ///< a list of such tables
+  columns,  ///< a table of free keys, each a variant or a number: for example
+            ///< body attributes by name
 };
 
 struct Variant;
 
 /// One setting: name, kind, unit, default, range and a line of help.
 class Parameter {
- public:
-  using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, Vec3, std::vector<double>,
-                             std::vector<std::string>>;
+public:
+  using Value =
+      std::variant<std::monostate, bool, std::int64_t, double, std::string,
+                   Vec3, std::vector<double>, std::vector<std::string>>;
 
   static Parameter boolean(std::string name, std::string help);
   static Parameter integer(std::string name, std::string help);
   static Parameter number(std::string name, std::string unit, std::string help);
   static Parameter text(std::string name, std::string help);
-  static Parameter choice(std::string name, std::vector<std::string> words, std::string help);
+  static Parameter choice(std::string name, std::vector<std::string> words,
+                          std::string help);
   static Parameter path(std::string name, std::string help);
   static Parameter vector(std::string name, std::string unit, std::string help);
-  static Parameter numbers(std::string name, std::string unit, std::string help);
+  static Parameter numbers(std::string name, std::string unit,
+                           std::string help);
   static Parameter texts(std::string name, std::string help);
-  static Parameter table(std::string name, std::vector<Parameter> members, std::string help);
-  static Parameter tables(std::string name, std::vector<Parameter> members, std::string help);
-  static Parameter variant(std::string name, std::vector<Variant> variants, std::string help);
-  static Parameter variants(std::string name, std::vector<Variant> variants, std::string help);
-  static Parameter columns(std::string name, std::vector<Variant> variants, std::string unit, std::string help);
+  static Parameter table(std::string name, std::vector<Parameter> members,
+                         std::string help);
+  static Parameter tables(std::string name, std::vector<Parameter> members,
+                          std::string help);
+  static Parameter variant(std::string name, std::vector<Variant> variants,
+                           std::string help);
+  static Parameter variants(std::string name, std::vector<Variant> variants,
+                            std::string help);
+  static Parameter columns(std::string name, std::vector<Variant> variants,
+                           std::string unit, std::string help);
 
-  /// The value that holds when the scene is silent; without one, and not optional, the setting is required.
+  /// The value that holds when the scene is silent; without one, and not
+  /// optional, the setting is required.
   Parameter by_default(Value value) &&;
-  Parameter by_default(double value) && { return std::move(*this).by_default(Value{value}); }
-  Parameter by_default(int value) && { return std::move(*this).by_default(Value{std::int64_t{value}}); }
-  Parameter by_default(bool value) && { return std::move(*this).by_default(Value{value}); }
-  Parameter by_default(const char* value) && { return std::move(*this).by_default(Value{std::string{value}}); }
+  Parameter by_default(double value) && {
+    return std::move(*this).by_default(Value{value});
+  }
+  Parameter by_default(int value) && {
+    return std::move(*this).by_default(Value{std::int64_t{value}});
+  }
+  Parameter by_default(bool value) && {
+    return std::move(*this).by_default(Value{value});
+  }
+  Parameter by_default(const char *value) && {
+    return std::move(*this).by_default(Value{std::string{value}});
+  }
   /// The setting may be absent; Options::has() tells.
   Parameter optional() &&;
   /// Smallest and largest valid value, in the parameter's SI unit.
@@ -72,33 +93,40 @@ class Parameter {
   Parameter at_most(double maximum) &&;
   /// Values must be strictly greater than `bound`, in the parameter's SI unit.
   Parameter above(double bound) &&;
-  /// A list must have exactly (or, with `at_least_count`, at least) this many entries.
+  /// A list must have exactly (or, with `at_least_count`, at least) this many
+  /// entries.
   Parameter with_count(int count) &&;
-  /// A plain number stands for the variant `type` with its member `member` set: `size = "3 mm"`.
+  /// A plain number stands for the variant `type` with its member `member` set:
+  /// `size = "3 mm"`.
   Parameter with_shorthand(std::string type, std::string member) &&;
 
   std::string name;
   ValueKind kind = ValueKind::number;
-  std::string unit = "1";  ///< SI unit of numbers, vectors and lists; "1" for none
+  std::string unit =
+      "1"; ///< SI unit of numbers, vectors and lists; "1" for none
   std::string help;
-  Value default_value;  ///< monostate: none
+  Value default_value; ///< monostate: none
   bool required = true;
-  double minimum = -std::numeric_limits<double>::infinity();  ///< [unit of the parameter]
-  double maximum = std::numeric_limits<double>::infinity();   ///< [unit of the parameter]
+  double minimum =
+      -std::numeric_limits<double>::infinity(); ///< [unit of the parameter]
+  double maximum =
+      std::numeric_limits<double>::infinity(); ///< [unit of the parameter]
   bool minimum_excluded = false;
-  int count = -1;  ///< required length of a list, -1 for any
-  std::vector<std::string> words;        ///< of a choice
-  std::vector<Parameter> members;        ///< of a table
-  std::vector<Variant> alternatives;     ///< of a variant
-  std::string shorthand_type;            ///< variant that a plain number stands for, or empty
+  int count = -1;                    ///< required length of a list, -1 for any
+  std::vector<std::string> words;    ///< of a choice
+  std::vector<Parameter> members;    ///< of a table
+  std::vector<Variant> alternatives; ///< of a variant
+  std::string
+      shorthand_type; ///< variant that a plain number stands for, or empty
   std::string shorthand_member;
 };
 
-/// One alternative of a variant: the value of `type`, and the members that go with it.
+/// One alternative of a variant: the value of `type`, and the members that go
+/// with it.
 struct Variant {
   std::string type;
   std::string help;
   std::vector<Parameter> members;
 };
 
-}  // namespace scree
+} // namespace scree

@@ -1,16 +1,21 @@
-// Quantities with units, as scenes write them: "35 kV", "44.8 rpm", "3 mm", "2.5 g/cm3", "30 deg".
+// Quantities with units, as scenes write them: "35 kV", "44.8 rpm", "3 mm",
+// "2.5 g/cm3", "30 deg".
 #pragma once
 
 #include <string_view>
 
 namespace scree {
 
-/// The value of `text` in the SI unit `unit` ("m", "m/s2", "1", "kg/m3", "rad/s", ...).
-/// @throws Error (usage, no place) when the number or the unit cannot be read, or the dimensions differ; the sentence
-/// names both units and an example that would be valid.
-[[nodiscard]] double parse_quantity(std::string_view text, std::string_view unit);
+/// The value of `text` in the SI unit `unit` ("m", "m/s2", "1", "kg/m3",
+/// "rad/s", ...).
+/// @throws Error (usage, no place) when the number or the unit cannot be read,
+/// or the dimensions differ; the sentence names both units and an example that
+/// would be valid.
+[[nodiscard]] double parse_quantity(std::string_view text,
+                                    std::string_view unit);
 
-/// True when the unit library knows `unit`; descriptions of parameters are tested with this.
+/// True when the unit library knows `unit`; descriptions of parameters are
+/// tested with this.
 [[nodiscard]] bool is_unit(std::string_view unit);
 
-}  // namespace scree
+} // namespace scree

@@ -1,0 +1,47 @@
+// Colliders: the primitives of all bodies, placed in the world for one step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "scree/math/aabb.hpp"
+#include "scree/model/body.hpp"
+#include "scree/model/shape_set.hpp"
+
+namespace scree {
+
+/// Index of a collider in a ColliderView.
+using ColliderIndex = std::uint32_t;
+
+/// Spans of equal length, one entry per primitive per body, in order of body,
+/// then primitive.
+struct ColliderView {
+  std::span<const std::uint64_t>
+      key; ///< stable: the same primitive of the same body has it in every step
+  std::span<const BodyIndex> body; ///< index into the BodyView
+  std::span<const std::uint32_t>
+      primitive;              ///< index into ShapeSet::primitives()
+  std::span<const Pose> pose; ///< of the primitive's frame in the world [m]
+  std::span<const Aabb>
+      box; ///< tight bounds grown by what can happen within the step [m], world
+  std::span<const char> movable; ///< 1 for primitives of dynamic bodies
+
+  [[nodiscard]] std::size_t size() const { return key.size(); }
+};
+
+/// Two colliders whose contacts are wanted, a < b.
+struct ColliderPair {
+  ColliderIndex a = 0;
+  ColliderIndex b = 0;
+  double reach = 0.0; ///< contacts with a gap below this are wanted [m]
+
+  bool operator==(const ColliderPair &) const = default;
+};
+
+/// Candidates of a broad phase: a pair of indices, in any order.
+struct CandidatePair {
+  ColliderIndex a = 0;
+  ColliderIndex b = 0;
+};
+
+} // namespace scree

@@ -1,0 +1,27 @@
+// Source: adds bodies while the simulation runs.
+#pragma once
+
+#include <vector>
+
+#include "scree/interfaces/plugin.hpp"
+#include "scree/model/body_store.hpp"
+
+namespace scree {
+
+class SceneServices;
+
+/// Feeds bodies. Called once at the beginning of every outer step.
+class Source : public Plugin {
+public:
+  static constexpr const char *kKind = "source";
+  ~Source() override;
+
+  virtual void setup(SceneServices &services);
+
+  /// Appends the bodies born at `time` [s] for a step of length `dt` [s] to
+  /// `out`. `bodies` are those that exist.
+  virtual void emit(const BodyView &bodies, double time, double dt,
+                    std::vector<NewBody> &out) = 0;
+};
+
+} // namespace scree
