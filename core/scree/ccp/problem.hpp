@@ -23,26 +23,26 @@ namespace scree {
 
 /// A contact block, Coulomb cone ||(g_1, g_2)|| <= friction * g_0.
 struct CcpContact {
-  Vec3 normal;   ///< from a to b [1], world
-  Vec3 tangent1; ///< [1], world; tangent 2 = normal x tangent 1
-  Vec3 arm_a; ///< contact point relative to the centre of mass of a [m], world
-  Vec3 arm_b; ///< contact point relative to the centre of mass of b [m], world
-  double friction = 0.0;      ///< [1]
-  std::uint32_t a = 0, b = 0; ///< bodies of the problem; an immovable one has a
-                              ///< zero inverse mass
+  Vec3 normal;                 ///< from a to b [1], world
+  Vec3 tangent1;               ///< [1], world; tangent 2 = normal x tangent 1
+  Vec3 arm_a;                  ///< contact point relative to the centre of mass of a [m], world
+  Vec3 arm_b;                  ///< contact point relative to the centre of mass of b [m], world
+  double friction = 0.0;       ///< [1]
+  std::uint32_t a = 0, b = 0;  ///< bodies of the problem; an immovable one has a
+                               ///< zero inverse mass
 };
 
 /// The problem of one step. All spans stay valid during a solve.
 struct CcpProblem {
-  std::span<const double> inverse_mass;  ///< per body [1/kg]
-  std::span<const Mat3> inverse_inertia; ///< per body, world frame [1/(kg m2)]
-  std::span<const CcpContact> contacts;  ///< m blocks
-  std::span<const double> r;             ///< 3 m [m/s]
-  std::span<const double> compliance;    ///< E, 3 m [1/kg]; empty for none
+  std::span<const double> inverse_mass;   ///< per body [1/kg]
+  std::span<const Mat3> inverse_inertia;  ///< per body, world frame [1/(kg m2)]
+  std::span<const CcpContact> contacts;   ///< m blocks
+  std::span<const double> r;              ///< 3 m [m/s]
+  std::span<const double> compliance;     ///< E, 3 m [1/kg]; empty for none
 
   [[nodiscard]] std::size_t bodies() const { return inverse_mass.size(); }
   [[nodiscard]] std::size_t blocks() const { return contacts.size(); }
   [[nodiscard]] std::size_t rows() const { return 3 * contacts.size(); }
 };
 
-} // namespace scree
+}  // namespace scree

@@ -16,15 +16,12 @@ using ColliderIndex = std::uint32_t;
 /// Spans of equal length, one entry per primitive per body, in order of body,
 /// then primitive.
 struct ColliderView {
-  std::span<const std::uint64_t>
-      key; ///< stable: the same primitive of the same body has it in every step
-  std::span<const BodyIndex> body; ///< index into the BodyView
-  std::span<const std::uint32_t>
-      primitive;              ///< index into ShapeSet::primitives()
-  std::span<const Pose> pose; ///< of the primitive's frame in the world [m]
-  std::span<const Aabb>
-      box; ///< tight bounds grown by what can happen within the step [m], world
-  std::span<const char> movable; ///< 1 for primitives of dynamic bodies
+  std::span<const std::uint64_t> key;        ///< stable: the same primitive of the same body has it in every step
+  std::span<const BodyIndex> body;           ///< index into the BodyView
+  std::span<const std::uint32_t> primitive;  ///< index into ShapeSet::primitives()
+  std::span<const Pose> pose;                ///< of the primitive's frame in the world [m]
+  std::span<const Aabb> box;                 ///< tight bounds grown by what can happen within the step [m], world
+  std::span<const char> movable;             ///< 1 for primitives of dynamic bodies
 
   [[nodiscard]] std::size_t size() const { return key.size(); }
 };
@@ -33,9 +30,9 @@ struct ColliderView {
 struct ColliderPair {
   ColliderIndex a = 0;
   ColliderIndex b = 0;
-  double reach = 0.0; ///< contacts with a gap below this are wanted [m]
+  double reach = 0.0;  ///< contacts with a gap below this are wanted [m]
 
-  bool operator==(const ColliderPair &) const = default;
+  bool operator==(const ColliderPair&) const = default;
 };
 
 /// Candidates of a broad phase: a pair of indices, in any order.
@@ -44,4 +41,4 @@ struct CandidatePair {
   ColliderIndex b = 0;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -15,14 +15,14 @@ namespace scree {
 struct Contact {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  std::uint32_t primitive_a = 0; ///< index into the primitives of a's shape
+  std::uint32_t primitive_a = 0;  ///< index into the primitives of a's shape
   std::uint32_t primitive_b = 0;
-  std::uint64_t feature = 0; ///< tells the contacts of one pair of primitives
-                             ///< apart; stable while the features touch
-  Vec3 point;                ///< midway between the two surfaces [m], world
-  Vec3 normal;               ///< unit, from a to b [1], world
-  double gap = 0.0; ///< distance of the surfaces along the normal [m]; negative
-                    ///< when they overlap
+  std::uint64_t feature = 0;  ///< tells the contacts of one pair of primitives
+                              ///< apart; stable while the features touch
+  Vec3 point;                 ///< midway between the two surfaces [m], world
+  Vec3 normal;                ///< unit, from a to b [1], world
+  double gap = 0.0;           ///< distance of the surfaces along the normal [m]; negative
+                              ///< when they overlap
 };
 
 /// Contacts of a batch of pairs, appended by a narrow phase.
@@ -31,42 +31,39 @@ using ContactBuffer = std::vector<Contact>;
 /// The contacts of the last step, spans of equal length.
 struct ContactView {
   std::span<const Contact> contact;
-  std::span<const Vec3> impulse; ///< on b, in the contact frame: normal,
-                                 ///< tangent 1, tangent 2 [N s]
-  std::span<const Vec3>
-      velocity_before; ///< of b's surface relative to a's, contact frame,
-                       ///< before the solve [m/s]
-  std::span<const Vec3> velocity_after; ///< the same after the solve [m/s]
+  std::span<const Vec3> impulse;          ///< on b, in the contact frame: normal,
+                                          ///< tangent 1, tangent 2 [N s]
+  std::span<const Vec3> velocity_before;  ///< of b's surface relative to a's, contact frame,
+                                          ///< before the solve [m/s]
+  std::span<const Vec3> velocity_after;   ///< the same after the solve [m/s]
 
   [[nodiscard]] std::size_t size() const { return contact.size(); }
 };
 
 /// An orthonormal contact frame: normal, tangent 1, tangent 2, right-handed.
 struct ContactFrame {
-  Vec3 normal;   ///< [1], world
-  Vec3 tangent1; ///< [1], world
-  Vec3 tangent2; ///< [1], world
+  Vec3 normal;    ///< [1], world
+  Vec3 tangent1;  ///< [1], world
+  Vec3 tangent2;  ///< [1], world
 };
 
 /// The frame of a normal. A pure function, so that nobody has to store tangents
 /// (Duff et al. 2017, branchless basis).
-inline ContactFrame contact_frame(const Vec3 &n) {
+inline ContactFrame contact_frame(const Vec3& n) {
   const double sign = std::copysign(1.0, n.z);
   const double a = -1.0 / (sign + n.z);
   const double b = n.x * n.y * a;
-  return {n,
-          {1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x},
-          {b, sign + n.y * n.y * a, -n.y}};
+  return {n, {1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
 /// A vector of the contact frame (normal, tangent 1, tangent 2) in the world.
-inline Vec3 to_world(const ContactFrame &f, const Vec3 &local) {
+inline Vec3 to_world(const ContactFrame& f, const Vec3& local) {
   return local.x * f.normal + local.y * f.tangent1 + local.z * f.tangent2;
 }
 
 /// A world vector in the contact frame.
-inline Vec3 to_contact(const ContactFrame &f, const Vec3 &v) {
+inline Vec3 to_contact(const ContactFrame& f, const Vec3& v) {
   return {dot(f.normal, v), dot(f.tangent1, v), dot(f.tangent2, v)};
 }
 
-} // namespace scree
+}  // namespace scree

@@ -23,15 +23,15 @@ namespace scree {
 /// A validated table: typed values by name, each with the place it came from. A
 /// value type; copies are deep.
 class Options {
-public:
+ public:
   struct Entry;
 
   Options();
   ~Options();
-  Options(const Options &);
-  Options(Options &&) noexcept;
-  Options &operator=(const Options &);
-  Options &operator=(Options &&) noexcept;
+  Options(const Options&);
+  Options(Options&&) noexcept;
+  Options& operator=(const Options&);
+  Options& operator=(Options&&) noexcept;
 
   /// False only for a setting described as optional() that the scene leaves
   /// out.
@@ -44,20 +44,19 @@ public:
   /// In the SI unit of the parameter's description, as all numbers here.
   [[nodiscard]] double number(std::string_view name) const;
   [[nodiscard]] Vec3 vector(std::string_view name) const;
-  [[nodiscard]] const std::vector<double> &numbers(std::string_view name) const;
+  [[nodiscard]] const std::vector<double>& numbers(std::string_view name) const;
   /// The string of a text or choice.
-  [[nodiscard]] const std::string &text(std::string_view name) const;
-  [[nodiscard]] const std::vector<std::string> &
-  texts(std::string_view name) const;
+  [[nodiscard]] const std::string& text(std::string_view name) const;
+  [[nodiscard]] const std::vector<std::string>& texts(std::string_view name) const;
   /// Absolute path of a file setting.
   [[nodiscard]] std::filesystem::path path(std::string_view name) const;
   /// A nested table or variant.
-  [[nodiscard]] const Options &table(std::string_view name) const;
-  [[nodiscard]] const std::vector<Options> &tables(std::string_view name) const;
+  [[nodiscard]] const Options& table(std::string_view name) const;
+  [[nodiscard]] const std::vector<Options>& tables(std::string_view name) const;
 
   /// For a variant: the chosen `type`. For a plugin's own section: the plugin's
   /// name. Else empty.
-  [[nodiscard]] const std::string &type() const { return type_; }
+  [[nodiscard]] const std::string& type() const { return type_; }
   /// The keys that hold a value, in the order of description (free keys of
   /// `columns`: alphabetical).
   [[nodiscard]] std::vector<std::string> names() const;
@@ -65,22 +64,21 @@ public:
   /// Where a key was written; where its table begins when the value is a
   /// default.
   [[nodiscard]] SourceLocation location(std::string_view name) const;
-  [[nodiscard]] const SourceLocation &location() const { return location_; }
+  [[nodiscard]] const SourceLocation& location() const { return location_; }
   /// An Error at the place of a key, for what only the reader can check: `throw
   /// options.error("radius", "...")`.
-  [[nodiscard]] Error error(std::string_view name,
-                            const std::string &sentence) const;
-  [[nodiscard]] Error error(const std::string &sentence) const;
+  [[nodiscard]] Error error(std::string_view name, const std::string& sentence) const;
+  [[nodiscard]] Error error(const std::string& sentence) const;
 
   /// Filled by the validator (scree/config/validate.hpp) and by tests.
-  void set(const std::string &name, Entry entry);
+  void set(const std::string& name, Entry entry);
   void set_type(std::string type) { type_ = std::move(type); }
   void set_location(SourceLocation where) { location_ = std::move(where); }
   /// For tests and C++ callers: sets a value as if a scene had written it.
-  void set(const std::string &name, Parameter::Value value);
-  [[nodiscard]] const Entry *find(std::string_view name) const;
+  void set(const std::string& name, Parameter::Value value);
+  [[nodiscard]] const Entry* find(std::string_view name) const;
 
-private:
+ private:
   std::string type_;
   SourceLocation location_;
   std::vector<std::pair<std::string, std::unique_ptr<Entry>>> entries_;
@@ -89,11 +87,11 @@ private:
 /// A value of a table: scalar or list, nested tables, and where it was written.
 struct Options::Entry {
   Parameter::Value value;
-  std::vector<Options> tables; ///< one for a table or variant, any number for
-                               ///< tables and variants
-  std::filesystem::path base;  ///< folder that a path is relative to
+  std::vector<Options> tables;  ///< one for a table or variant, any number for
+                                ///< tables and variants
+  std::filesystem::path base;   ///< folder that a path is relative to
   SourceLocation where;
   bool given = true;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -24,68 +24,52 @@ namespace scree {
 enum class ValueKind {
   boolean,
   integer,
-  number, ///< a TOML number in SI, or a string with a unit such as "35 kV"
+  number,  ///< a TOML number in SI, or a string with a unit such as "35 kV"
   text,
-  choice,   ///< one of a list of words
-  path,     ///< a file, relative to the scene that names it
-  vector,   ///< three numbers with one unit
-  numbers,  ///< a list of numbers with one unit
-  texts,    ///< a list of strings
-  table,    ///< a nested table with members of its own
-  tables,   ///< a list of such tables
-  variant,  ///< a table whose `type` chooses the members, for example a size
-            ///< distribution
-  variants, ///< a list of such tables
-  columns,  ///< a table of free keys, each a variant or a number: for example
-            ///< body attributes by name
+  choice,    ///< one of a list of words
+  path,      ///< a file, relative to the scene that names it
+  vector,    ///< three numbers with one unit
+  numbers,   ///< a list of numbers with one unit
+  texts,     ///< a list of strings
+  table,     ///< a nested table with members of its own
+  tables,    ///< a list of such tables
+  variant,   ///< a table whose `type` chooses the members, for example a size
+             ///< distribution
+  variants,  ///< a list of such tables
+  columns,   ///< a table of free keys, each a variant or a number: for example
+             ///< body attributes by name
 };
 
 struct Variant;
 
 /// One setting: name, kind, unit, default, range and a line of help.
 class Parameter {
-public:
-  using Value =
-      std::variant<std::monostate, bool, std::int64_t, double, std::string,
-                   Vec3, std::vector<double>, std::vector<std::string>>;
+ public:
+  using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, Vec3, std::vector<double>,
+                             std::vector<std::string>>;
 
   static Parameter boolean(std::string name, std::string help);
   static Parameter integer(std::string name, std::string help);
   static Parameter number(std::string name, std::string unit, std::string help);
   static Parameter text(std::string name, std::string help);
-  static Parameter choice(std::string name, std::vector<std::string> words,
-                          std::string help);
+  static Parameter choice(std::string name, std::vector<std::string> words, std::string help);
   static Parameter path(std::string name, std::string help);
   static Parameter vector(std::string name, std::string unit, std::string help);
-  static Parameter numbers(std::string name, std::string unit,
-                           std::string help);
+  static Parameter numbers(std::string name, std::string unit, std::string help);
   static Parameter texts(std::string name, std::string help);
-  static Parameter table(std::string name, std::vector<Parameter> members,
-                         std::string help);
-  static Parameter tables(std::string name, std::vector<Parameter> members,
-                          std::string help);
-  static Parameter variant(std::string name, std::vector<Variant> variants,
-                           std::string help);
-  static Parameter variants(std::string name, std::vector<Variant> variants,
-                            std::string help);
-  static Parameter columns(std::string name, std::vector<Variant> variants,
-                           std::string unit, std::string help);
+  static Parameter table(std::string name, std::vector<Parameter> members, std::string help);
+  static Parameter tables(std::string name, std::vector<Parameter> members, std::string help);
+  static Parameter variant(std::string name, std::vector<Variant> variants, std::string help);
+  static Parameter variants(std::string name, std::vector<Variant> variants, std::string help);
+  static Parameter columns(std::string name, std::vector<Variant> variants, std::string unit, std::string help);
 
   /// The value that holds when the scene is silent; without one, and not
   /// optional, the setting is required.
   Parameter by_default(Value value) &&;
-  Parameter by_default(double value) && {
-    return std::move(*this).by_default(Value{value});
-  }
-  Parameter by_default(int value) && {
-    return std::move(*this).by_default(Value{std::int64_t{value}});
-  }
-  Parameter by_default(bool value) && {
-    return std::move(*this).by_default(Value{value});
-  }
-  Parameter by_default(const char *value) && {
-    return std::move(*this).by_default(Value{std::string{value}});
-  }
+  Parameter by_default(double value) && { return std::move(*this).by_default(Value{value}); }
+  Parameter by_default(int value) && { return std::move(*this).by_default(Value{std::int64_t{value}}); }
+  Parameter by_default(bool value) && { return std::move(*this).by_default(Value{value}); }
+  Parameter by_default(const char* value) && { return std::move(*this).by_default(Value{std::string{value}}); }
   /// The setting may be absent; Options::has() tells.
   Parameter optional() &&;
   /// Smallest and largest valid value, in the parameter's SI unit.
@@ -102,22 +86,18 @@ public:
 
   std::string name;
   ValueKind kind = ValueKind::number;
-  std::string unit =
-      "1"; ///< SI unit of numbers, vectors and lists; "1" for none
+  std::string unit = "1";  ///< SI unit of numbers, vectors and lists; "1" for none
   std::string help;
-  Value default_value; ///< monostate: none
+  Value default_value;  ///< monostate: none
   bool required = true;
-  double minimum =
-      -std::numeric_limits<double>::infinity(); ///< [unit of the parameter]
-  double maximum =
-      std::numeric_limits<double>::infinity(); ///< [unit of the parameter]
+  double minimum = -std::numeric_limits<double>::infinity();  ///< [unit of the parameter]
+  double maximum = std::numeric_limits<double>::infinity();   ///< [unit of the parameter]
   bool minimum_excluded = false;
-  int count = -1;                    ///< required length of a list, -1 for any
-  std::vector<std::string> words;    ///< of a choice
-  std::vector<Parameter> members;    ///< of a table
-  std::vector<Variant> alternatives; ///< of a variant
-  std::string
-      shorthand_type; ///< variant that a plain number stands for, or empty
+  int count = -1;                     ///< required length of a list, -1 for any
+  std::vector<std::string> words;     ///< of a choice
+  std::vector<Parameter> members;     ///< of a table
+  std::vector<Variant> alternatives;  ///< of a variant
+  std::string shorthand_type;         ///< variant that a plain number stands for, or empty
   std::string shorthand_member;
 };
 
@@ -129,4 +109,4 @@ struct Variant {
   std::vector<Parameter> members;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -16,11 +16,11 @@ namespace scree {
 /// One table of a scene document, read-only. A light handle; the document must
 /// outlive it.
 class SceneTable {
-public:
+ public:
   struct Node;
-  explicit SceneTable(const Node *node) : node_{node} {}
+  explicit SceneTable(const Node* node) : node_{node} {}
 
-  [[nodiscard]] const Node &node() const { return *node_; }
+  [[nodiscard]] const Node& node() const { return *node_; }
   [[nodiscard]] SourceLocation location() const;
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool has(std::string_view key) const;
@@ -35,16 +35,15 @@ public:
   [[nodiscard]] SourceLocation location(std::string_view key) const;
   /// A copy of this table without some keys, so that core can take its own keys
   /// before a plugin's are checked. The copy lives as long as the document.
-  [[nodiscard]] SceneTable
-  without(std::span<const std::string_view> keys) const;
+  [[nodiscard]] SceneTable without(std::span<const std::string_view> keys) const;
 
-private:
-  const Node *node_;
+ private:
+  const Node* node_;
 };
 
 /// A scene file with its includes and the overrides of the command line.
 class SceneDocument {
-public:
+ public:
   /// Reads `file`, then merges the files of its `include = [...]` beneath it
   /// (its own keys win; lists of tables are appended after the included ones)
   /// and applies overrides "key.sub=value" on top, where `[[list]]` entries are
@@ -52,25 +51,23 @@ public:
   /// `source.emitter.rate`.
   /// @throws Error (io) for a missing file, (usage) for a syntax error, a
   /// cycle, an override that names no table.
-  static SceneDocument load(const std::filesystem::path &file,
-                            std::span<const std::string> overrides = {});
+  static SceneDocument load(const std::filesystem::path& file, std::span<const std::string> overrides = {});
   /// From text, for tests; `name` stands for the file in messages.
-  static SceneDocument parse(std::string_view toml,
-                             const std::string &name = "scene.toml");
+  static SceneDocument parse(std::string_view toml, const std::string& name = "scene.toml");
 
-  SceneDocument(SceneDocument &&) noexcept;
-  SceneDocument &operator=(SceneDocument &&) noexcept;
+  SceneDocument(SceneDocument&&) noexcept;
+  SceneDocument& operator=(SceneDocument&&) noexcept;
   ~SceneDocument();
 
   [[nodiscard]] SceneTable root() const;
   /// The folder of the scene file, for relative paths.
-  [[nodiscard]] const std::filesystem::path &folder() const;
-  [[nodiscard]] const std::filesystem::path &file() const;
+  [[nodiscard]] const std::filesystem::path& folder() const;
+  [[nodiscard]] const std::filesystem::path& file() const;
 
-private:
+ private:
   struct Contents;
   explicit SceneDocument(std::unique_ptr<Contents> contents);
   std::unique_ptr<Contents> contents_;
 };
 
-} // namespace scree
+}  // namespace scree

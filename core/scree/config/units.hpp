@@ -11,11 +11,10 @@ namespace scree {
 /// @throws Error (usage, no place) when the number or the unit cannot be read,
 /// or the dimensions differ; the sentence names both units and an example that
 /// would be valid.
-[[nodiscard]] double parse_quantity(std::string_view text,
-                                    std::string_view unit);
+[[nodiscard]] double parse_quantity(std::string_view text, std::string_view unit);
 
 /// True when the unit library knows `unit`; descriptions of parameters are
 /// tested with this.
 [[nodiscard]] bool is_unit(std::string_view unit);
 
-} // namespace scree
+}  // namespace scree

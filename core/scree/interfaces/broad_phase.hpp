@@ -14,13 +14,10 @@ class Executor;
 
 /// Boxes of one step; spans of equal length.
 struct BoxView {
-  std::span<const std::uint64_t>
-      key; ///< stable, for phases that keep a structure between steps
-  std::span<const Aabb> box; ///< bounded boxes [m], world
-  std::span<const char>
-      movable; ///< pairs of two unmovable boxes are not wanted
-  std::span<const std::uint32_t>
-      owner; ///< pairs of the same owner (body) are not wanted
+  std::span<const std::uint64_t> key;    ///< stable, for phases that keep a structure between steps
+  std::span<const Aabb> box;             ///< bounded boxes [m], world
+  std::span<const char> movable;         ///< pairs of two unmovable boxes are not wanted
+  std::span<const std::uint32_t> owner;  ///< pairs of the same owner (body) are not wanted
 
   [[nodiscard]] std::size_t size() const { return key.size(); }
 };
@@ -29,14 +26,13 @@ struct BoxView {
 /// whose boxes do not meet, sorts, and removes doubles, so that no history of
 /// the phase shows in the result.
 class BroadPhase : public Plugin {
-public:
-  static constexpr const char *kKind = "broad_phase";
+ public:
+  static constexpr const char* kKind = "broad_phase";
   ~BroadPhase() override;
 
   /// Appends every pair of boxes that overlap (touching counts), each index
   /// into `boxes`, to `out`, at least once.
-  virtual void find_pairs(const BoxView &boxes, const Executor &executor,
-                          std::vector<CandidatePair> &out) = 0;
+  virtual void find_pairs(const BoxView& boxes, const Executor& executor, std::vector<CandidatePair>& out) = 0;
 };
 
-} // namespace scree
+}  // namespace scree

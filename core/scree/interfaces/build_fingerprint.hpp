@@ -10,14 +10,14 @@ namespace scree {
 
 /// Compiler, standard library and layout of the boundary, as constant data.
 struct BuildFingerprint {
-  const char *compiler;         ///< name and major version
-  std::uint32_t cxx_abi;        ///< __GXX_ABI_VERSION
-  std::uint32_t library;        ///< release of the standard library
-  std::uint32_t new_string_abi; ///< _GLIBCXX_USE_CXX11_ABI
-  std::uint32_t debug_library;  ///< _GLIBCXX_DEBUG, which changes containers
-  std::uint32_t pointer_size;   ///< [byte]
-  std::uint32_t string_size;    ///< sizeof(std::string) [byte]
-  std::uint32_t vector_size;    ///< sizeof(std::vector<double>) [byte]
+  const char* compiler;          ///< name and major version
+  std::uint32_t cxx_abi;         ///< __GXX_ABI_VERSION
+  std::uint32_t library;         ///< release of the standard library
+  std::uint32_t new_string_abi;  ///< _GLIBCXX_USE_CXX11_ABI
+  std::uint32_t debug_library;   ///< _GLIBCXX_DEBUG, which changes containers
+  std::uint32_t pointer_size;    ///< [byte]
+  std::uint32_t string_size;     ///< sizeof(std::string) [byte]
+  std::uint32_t vector_size;     ///< sizeof(std::vector<double>) [byte]
 };
 
 /// The fingerprint of the code being compiled.
@@ -36,10 +36,10 @@ constexpr BuildFingerprint build_fingerprint() {
 #else
           0,
 #endif
-          sizeof(void *),
+          sizeof(void*),
           sizeof(std::string),
           sizeof(std::vector<double>)};
 #undef SCREE_COMPILER
 }
 
-} // namespace scree
+}  // namespace scree

@@ -26,29 +26,27 @@ class SceneServices;
 
 /// One force on all bodies. A call handles every body at once.
 class ForceField : public Plugin {
-public:
-  static constexpr const char *kKind = "force_field";
+ public:
+  static constexpr const char* kKind = "force_field";
   ~ForceField() override;
 
   /// Called once, after all materials, shapes and electric fields exist.
-  virtual void setup(SceneServices &services);
+  virtual void setup(SceneServices& services);
 
   /// Adds this field's forces [N] and torques [N m] to `out`; never sets, never
   /// reads it. Entries of bodies that do not move by forces are ignored.
-  virtual void add_forces(const BodyView &bodies, double time,
-                          WrenchView out) const = 0;
+  virtual void add_forces(const BodyView& bodies, double time, WrenchView out) const = 0;
 
   /// True when potential_energy() is meaningful.
   [[nodiscard]] virtual bool is_conservative() const { return false; }
   /// Potential energy of all bodies in this field [J]; force = - d/dx of it.
-  [[nodiscard]] virtual double potential_energy(const BodyView &bodies,
-                                                double time) const;
+  [[nodiscard]] virtual double potential_energy(const BodyView& bodies, double time) const;
 
   /// Advances the field's own state (charges by contact, by age, ...) at the
   /// end of a step, in scene order. `time` is the end of the step [s]; the
   /// indices in `contacts` are those of `bodies`.
-  virtual void advance(const BodyView &bodies, const ContactView &contacts,
-                       Attributes &attributes, double time, double dt);
+  virtual void advance(const BodyView& bodies, const ContactView& contacts, Attributes& attributes, double time,
+                       double dt);
 };
 
-} // namespace scree
+}  // namespace scree

@@ -12,24 +12,23 @@ namespace scree {
 /// Computes contacts. Several narrow phases chain: each pair of kinds goes to
 /// the first that supports it.
 class NarrowPhase : public Plugin {
-public:
-  static constexpr const char *kKind = "narrow_phase";
+ public:
+  static constexpr const char* kKind = "narrow_phase";
   ~NarrowPhase() override;
 
   /// True when pairs of these kinds can be given to collide(), in either order.
   [[nodiscard]] virtual bool supports(ShapeKind a, ShapeKind b) const = 0;
   /// Called after setup and whenever shapes were added: primitives from
   /// `first_new` on are new. `shapes` outlives this.
-  virtual void bind(const ShapeSet &shapes, std::size_t first_new_primitive);
+  virtual void bind(const ShapeSet& shapes, std::size_t first_new_primitive);
 
   /// Appends the contacts of `pairs` with gap < pair.reach, pair after pair,
   /// with body a of the contact = body of collider a, normal from a to b, and,
   /// within one pair, in increasing order of `feature`. No manifold is kept
   /// between steps. Called from several threads at once with different pairs
   /// and buffers.
-  virtual void collide(const ColliderView &colliders,
-                       std::span<const ColliderPair> pairs,
-                       ContactBuffer &out) const = 0;
+  virtual void collide(const ColliderView& colliders, std::span<const ColliderPair> pairs,
+                       ContactBuffer& out) const = 0;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -9,10 +9,10 @@ class StateWriter;
 /// Base of all interfaces. A part is made from its Options, set up once, called
 /// every step, and saved with checkpoints.
 class Plugin {
-public:
+ public:
   Plugin() = default;
-  Plugin(const Plugin &) = delete;
-  Plugin &operator=(const Plugin &) = delete;
+  Plugin(const Plugin&) = delete;
+  Plugin& operator=(const Plugin&) = delete;
   virtual ~Plugin();
 
   /// Counts changes of what save() writes; a checkpoint of another version is
@@ -20,9 +20,9 @@ public:
   [[nodiscard]] virtual int version() const { return 1; }
   /// Writes everything that decides the next step and is not in the scene.
   /// Stateless parts write nothing.
-  virtual void save(StateWriter &out) const;
+  virtual void save(StateWriter& out) const;
   /// Restores what save() wrote.
-  virtual void load(const StateReader &in);
+  virtual void load(const StateReader& in);
 };
 
-} // namespace scree
+}  // namespace scree

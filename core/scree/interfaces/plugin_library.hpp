@@ -32,46 +32,40 @@ inline constexpr std::uint32_t kPluginAbi = 1;
 
 /// One plugin of a library: its name and how to make one.
 struct PluginEntry {
-  std::string kind; ///< "force_field", "ccp_solver", ...
-  std::string name; ///< lower_snake, unique within its kind
-  std::string help; ///< one line
+  std::string kind;  ///< "force_field", "ccp_solver", ...
+  std::string name;  ///< lower_snake, unique within its kind
+  std::string help;  ///< one line
   std::vector<Parameter> parameters;
-  std::function<std::unique_ptr<Plugin>(const Options &)> make;
-  std::string library; ///< file it came from; filled in by the host
-  std::string version; ///< of the library; filled in by the host
+  std::function<std::unique_ptr<Plugin>(const Options&)> make;
+  std::string library;  ///< file it came from; filled in by the host
+  std::string version;  ///< of the library; filled in by the host
 };
 
 /// Collects the entries of a library.
 class PluginList {
-public:
+ public:
   /// Adds `Type`, an `Interface`, which is constructed from const Options& (or
   /// from nothing).
   template <class Interface, class Type>
-  void add(std::string name, std::string help,
-           std::vector<Parameter> parameters = {}) {
-    static_assert(
-        std::is_base_of_v<Interface, Type>,
-        "the plugin must derive from the interface that it is added as");
-    entries_.push_back(
-        {Interface::kKind,
-         std::move(name),
-         std::move(help),
-         std::move(parameters),
-         [](const Options &options) -> std::unique_ptr<Plugin> {
-           if constexpr (std::is_constructible_v<Type, const Options &>) {
-             return std::make_unique<Type>(options);
-           } else {
-             return std::make_unique<Type>();
-           }
-         },
-         {},
-         {}});
+  void add(std::string name, std::string help, std::vector<Parameter> parameters = {}) {
+    static_assert(std::is_base_of_v<Interface, Type>, "the plugin must derive from the interface that it is added as");
+    entries_.push_back({Interface::kKind,
+                        std::move(name),
+                        std::move(help),
+                        std::move(parameters),
+                        [](const Options& options) -> std::unique_ptr<Plugin> {
+                          if constexpr (std::is_constructible_v<Type, const Options&>) {
+                            return std::make_unique<Type>(options);
+                          } else {
+                            return std::make_unique<Type>();
+                          }
+                        },
+                        {},
+                        {}});
   }
-  [[nodiscard]] const std::vector<PluginEntry> &entries() const {
-    return entries_;
-  }
+  [[nodiscard]] const std::vector<PluginEntry>& entries() const { return entries_; }
 
-private:
+ private:
   std::vector<PluginEntry> entries_;
 };
 
@@ -80,28 +74,26 @@ private:
 struct PluginLibrary {
   std::uint32_t abi;
   BuildFingerprint fingerprint;
-  const char *name;
-  const char *version;
-  void (*list)(PluginList &);
+  const char* name;
+  const char* version;
+  void (*list)(PluginList&);
 };
 
 /// The PluginLibrary of the code being compiled.
-constexpr PluginLibrary describe_library(const char *name, const char *version,
-                                         void (*list)(PluginList &)) {
+constexpr PluginLibrary describe_library(const char* name, const char* version, void (*list)(PluginList&)) {
   return {kPluginAbi, build_fingerprint(), name, version, list};
 }
 
 /// Where core finds plugins by kind and name; implemented by the plugin host.
 class PluginCatalog {
-public:
+ public:
   virtual ~PluginCatalog();
   /// The entry, or an Error (usage) at `where` that lists what exists, a
   /// suggestion and the folders searched.
-  [[nodiscard]] virtual const PluginEntry &
-  entry(std::string_view kind, std::string_view name,
-        const SourceLocation &where) const = 0;
+  [[nodiscard]] virtual const PluginEntry& entry(std::string_view kind, std::string_view name,
+                                                 const SourceLocation& where) const = 0;
   /// All entries, by kind, then name.
-  [[nodiscard]] virtual std::vector<const PluginEntry *> entries() const = 0;
+  [[nodiscard]] virtual std::vector<const PluginEntry*> entries() const = 0;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -12,16 +12,15 @@ class SceneServices;
 
 /// Feeds bodies. Called once at the beginning of every outer step.
 class Source : public Plugin {
-public:
-  static constexpr const char *kKind = "source";
+ public:
+  static constexpr const char* kKind = "source";
   ~Source() override;
 
-  virtual void setup(SceneServices &services);
+  virtual void setup(SceneServices& services);
 
   /// Appends the bodies born at `time` [s] for a step of length `dt` [s] to
   /// `out`. `bodies` are those that exist.
-  virtual void emit(const BodyView &bodies, double time, double dt,
-                    std::vector<NewBody> &out) = 0;
+  virtual void emit(const BodyView& bodies, double time, double dt, std::vector<NewBody>& out) = 0;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -17,49 +17,46 @@ class SceneServices;
 /// What a stepper may ask the host for during a step. It never meets another
 /// plugin.
 class StepServices {
-public:
+ public:
   virtual ~StepServices();
 
   /// Sum of all force fields at the state `bodies` [N], [N m]; `out` is
   /// overwritten.
-  virtual void forces(const BodyView &bodies, double time, WrenchView out) = 0;
+  virtual void forces(const BodyView& bodies, double time, WrenchView out) = 0;
   /// Contacts at the state `bodies` that are closed or may close within `dt`
   /// [s], sorted by (a, b, primitives, feature). `free_velocity` are the
   /// velocities [m/s] with which gaps are expected to close. Valid until the
   /// next call.
-  virtual std::span<const Contact>
-  contacts(const BodyView &bodies, std::span<const Vec3> free_velocity,
-           std::span<const Vec3> free_angular_velocity, double dt) = 0;
+  virtual std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
+                                            std::span<const Vec3> free_angular_velocity, double dt) = 0;
   /// Solves a CCP with the scene's solver and judges the answer.
-  virtual SolveSummary solve_ccp(const CcpProblem &problem,
-                                 std::span<double> gamma) = 0;
-  [[nodiscard]] virtual const Materials &materials() const = 0;
-  [[nodiscard]] virtual const Executor &executor() const = 0;
+  virtual SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) = 0;
+  [[nodiscard]] virtual const Materials& materials() const = 0;
+  [[nodiscard]] virtual const Executor& executor() const = 0;
 };
 
 /// What a step did. Numerical outcomes are data, not exceptions.
 struct StepSummary {
   SolveSummary solve;
-  std::size_t contacts = 0;      ///< given to the solver
-  double mean_penetration = 0.0; ///< mean overlap over closed contacts,
-                                 ///< relative to the smaller body's radius [1]
-  double max_penetration = 0.0;  ///< [m]
+  std::size_t contacts = 0;       ///< given to the solver
+  double mean_penetration = 0.0;  ///< mean overlap over closed contacts,
+                                  ///< relative to the smaller body's radius [1]
+  double max_penetration = 0.0;   ///< [m]
 };
 
 /// A time-stepping scheme.
 class TimeStepper : public Plugin {
-public:
-  static constexpr const char *kKind = "time_stepper";
+ public:
+  static constexpr const char* kKind = "time_stepper";
   ~TimeStepper() override;
 
-  virtual void setup(SceneServices &services);
+  virtual void setup(SceneServices& services);
 
   /// Advances the dynamic and kinematic bodies from `time` to `time + dt` [s].
   /// dt is the outer step; a scheme may divide it.
-  virtual StepSummary step(StepServices &services, const BodyState &bodies,
-                           double time, double dt) = 0;
+  virtual StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) = 0;
   /// The contacts of the last step, for fields, observers and writers.
   [[nodiscard]] virtual ContactView contacts() const = 0;
 };
 
-} // namespace scree
+}  // namespace scree

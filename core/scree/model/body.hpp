@@ -21,9 +21,9 @@ using BodyIndex = std::uint32_t;
 
 /// How a body moves.
 enum class Motion : std::uint8_t {
-  dynamic,   ///< by forces and contacts
-  kinematic, ///< as told, whatever touches it
-  fixed      ///< not at all
+  dynamic,    ///< by forces and contacts
+  kinematic,  ///< as told, whatever touches it
+  fixed       ///< not at all
 };
 
 /// Read-only spans of equal length n, in order of id. Frame: world, unless said
@@ -31,53 +31,48 @@ enum class Motion : std::uint8_t {
 struct BodyView {
   std::span<const BodyId> id;
   std::span<const Motion> motion;
-  std::span<const std::uint32_t> shape;    ///< index into ShapeSet
-  std::span<const std::uint32_t> material; ///< index into Materials
-  std::span<const Vec3> position;          ///< centre of mass [m]
-  std::span<const Quat>
-      orientation;                ///< body (principal axes) to world, unit [1]
-  std::span<const Vec3> velocity; ///< of the centre of mass [m/s]
-  std::span<const Vec3> angular_velocity; ///< [rad/s], world
-  std::span<const double>
-      mass; ///< [kg]; infinite for kinematic and fixed bodies
-  std::span<const Vec3> inertia;  ///< principal moments [kg m2], body frame
-  std::span<const double> radius; ///< of the sphere of equal volume [m]
-  const Attributes *attributes = nullptr;
+  std::span<const std::uint32_t> shape;     ///< index into ShapeSet
+  std::span<const std::uint32_t> material;  ///< index into Materials
+  std::span<const Vec3> position;           ///< centre of mass [m]
+  std::span<const Quat> orientation;        ///< body (principal axes) to world, unit [1]
+  std::span<const Vec3> velocity;           ///< of the centre of mass [m/s]
+  std::span<const Vec3> angular_velocity;   ///< [rad/s], world
+  std::span<const double> mass;             ///< [kg]; infinite for kinematic and fixed bodies
+  std::span<const Vec3> inertia;            ///< principal moments [kg m2], body frame
+  std::span<const double> radius;           ///< of the sphere of equal volume [m]
+  const Attributes* attributes = nullptr;
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
-  [[nodiscard]] std::span<const double> attribute(AttributeId column) const {
-    return attributes->column(column);
-  }
+  [[nodiscard]] std::span<const double> attribute(AttributeId column) const { return attributes->column(column); }
 };
 
 /// What a time stepper may change.
 struct BodyState {
-  BodyView view;                    ///< the same bodies, read-only
-  std::span<Vec3> position;         ///< [m]
-  std::span<Quat> orientation;      ///< body to world [1]
-  std::span<Vec3> velocity;         ///< [m/s]
-  std::span<Vec3> angular_velocity; ///< [rad/s], world
+  BodyView view;                     ///< the same bodies, read-only
+  std::span<Vec3> position;          ///< [m]
+  std::span<Quat> orientation;       ///< body to world [1]
+  std::span<Vec3> velocity;          ///< [m/s]
+  std::span<Vec3> angular_velocity;  ///< [rad/s], world
 };
 
 /// What a force field adds to, one entry per body of the view of the same call.
 struct WrenchView {
-  std::span<Vec3> force;  ///< on the centre of mass [N], world
-  std::span<Vec3> torque; ///< about the centre of mass [N m], world
+  std::span<Vec3> force;   ///< on the centre of mass [N], world
+  std::span<Vec3> torque;  ///< about the centre of mass [N m], world
 };
 
 /// Inverse mass [1/kg]: zero for bodies that forces do not move.
-inline double inverse_mass(const BodyView &bodies, BodyIndex i) {
+inline double inverse_mass(const BodyView& bodies, BodyIndex i) {
   return bodies.motion[i] == Motion::dynamic ? 1.0 / bodies.mass[i] : 0.0;
 }
 
 /// Inverse inertia in the world [1/(kg m2)]: zero for bodies that torques do
 /// not turn.
-inline Mat3 inverse_inertia(const BodyView &bodies, BodyIndex i) {
-  if (bodies.motion[i] != Motion::dynamic)
-    return {};
+inline Mat3 inverse_inertia(const BodyView& bodies, BodyIndex i) {
+  if (bodies.motion[i] != Motion::dynamic) return {};
   const Mat3 r = to_matrix(bodies.orientation[i]);
   const Vec3 j = bodies.inertia[i];
   return r * Mat3::diagonal({1.0 / j.x, 1.0 / j.y, 1.0 / j.z}) * transpose(r);
 }
 
-} // namespace scree
+}  // namespace scree

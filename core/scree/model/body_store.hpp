@@ -15,32 +15,31 @@ class StateWriter;
 /// A body to be added.
 struct NewBody {
   Motion motion = Motion::dynamic;
-  std::uint32_t shape = 0;    ///< index into ShapeSet
-  std::uint32_t material = 0; ///< index into Materials
-  Pose pose;     ///< of the body frame (centre of mass, principal axes) [m]
-  Vec3 velocity; ///< [m/s]
-  Vec3 angular_velocity; ///< [rad/s], world
-  double mass = 1.0;     ///< [kg]
-  Vec3 inertia{1, 1, 1}; ///< principal moments [kg m2]
-  double radius = 0.0;   ///< of the sphere of equal volume [m]
-  std::vector<std::pair<AttributeId, double>>
-      attributes; ///< those that differ from the column's initial value
+  std::uint32_t shape = 0;                                 ///< index into ShapeSet
+  std::uint32_t material = 0;                              ///< index into Materials
+  Pose pose;                                               ///< of the body frame (centre of mass, principal axes) [m]
+  Vec3 velocity;                                           ///< [m/s]
+  Vec3 angular_velocity;                                   ///< [rad/s], world
+  double mass = 1.0;                                       ///< [kg]
+  Vec3 inertia{1, 1, 1};                                   ///< principal moments [kg m2]
+  double radius = 0.0;                                     ///< of the sphere of equal volume [m]
+  std::vector<std::pair<AttributeId, double>> attributes;  ///< those that differ from the column's initial value
 };
 
 /// Columns of all bodies. Adding and removing keeps the order by id.
 class BodyStore {
-public:
+ public:
   /// Adds a body and returns its id. References and spans taken before are
   /// invalid afterwards.
-  BodyId add(const NewBody &body);
+  BodyId add(const NewBody& body);
   /// Removes the bodies with remove[i] != 0, keeping the order of the others.
   void remove(std::span<const char> remove);
 
   [[nodiscard]] std::size_t size() const { return id_.size(); }
   [[nodiscard]] BodyView view() const;
   [[nodiscard]] BodyState state();
-  [[nodiscard]] Attributes &attributes() { return attributes_; }
-  [[nodiscard]] const Attributes &attributes() const { return attributes_; }
+  [[nodiscard]] Attributes& attributes() { return attributes_; }
+  [[nodiscard]] const Attributes& attributes() const { return attributes_; }
   /// The index of a body, or -1 when it is gone. Logarithmic.
   [[nodiscard]] std::int64_t find(BodyId id) const;
   /// Bodies ever added; the next id.
@@ -49,10 +48,10 @@ public:
   /// A hash of every bit of every column, for comparing states.
   [[nodiscard]] std::uint64_t hash() const;
 
-  void save(StateWriter &out) const;
-  void load(const StateReader &in);
+  void save(StateWriter& out) const;
+  void load(const StateReader& in);
 
-private:
+ private:
   BodyId next_id_ = 0;
   std::vector<BodyId> id_;
   std::vector<Motion> motion_;
@@ -68,4 +67,4 @@ private:
   Attributes attributes_;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -15,7 +15,7 @@ namespace scree {
 
 /// A stream of random numbers that can be saved as one integer.
 class RandomStream {
-public:
+ public:
   using result_type = std::uint64_t;
 
   RandomStream(std::uint64_t seed, std::string_view name);
@@ -39,9 +39,9 @@ public:
   [[nodiscard]] std::uint64_t counter() const { return counter_; }
   void set_counter(std::uint64_t counter) { counter_ = counter; }
 
-private:
+ private:
   std::uint64_t key_;
   std::uint64_t counter_ = 0;
 };
 
-} // namespace scree
+}  // namespace scree

@@ -18,47 +18,45 @@ namespace scree {
 
 /// Kinds of collision primitive. Axes of revolution are the primitive's z axis.
 enum class ShapeKind : std::uint8_t {
-  sphere,         ///< size.x: radius
-  sphere_cluster, ///< a rigid union of spheres: items of spheres()
-  box,            ///< size: half edges
-  cylinder,       ///< size.x: radius, size.y: half length
-  capsule,        ///< size.x: radius, size.y: half length of its axis
-  cone,  ///< size.x: base radius, size.y: half height; apex at +z, base at -z
-  plane, ///< half space z <= 0 is solid; outward normal +z; unbounded
-  convex_hull,  ///< items of vertices(); faces in faces()
-  triangle_mesh ///< a closed or open surface: items of triangles(), indexing
-                ///< vertices()
+  sphere,          ///< size.x: radius
+  sphere_cluster,  ///< a rigid union of spheres: items of spheres()
+  box,             ///< size: half edges
+  cylinder,        ///< size.x: radius, size.y: half length
+  capsule,         ///< size.x: radius, size.y: half length of its axis
+  cone,            ///< size.x: base radius, size.y: half height; apex at +z, base at -z
+  plane,           ///< half space z <= 0 is solid; outward normal +z; unbounded
+  convex_hull,     ///< items of vertices(); faces in faces()
+  triangle_mesh    ///< a closed or open surface: items of triangles(), indexing
+                   ///< vertices()
 };
 inline constexpr std::size_t kShapeKindCount = 9;
 
-[[nodiscard]] const char *to_string(ShapeKind kind);
+[[nodiscard]] const char* to_string(ShapeKind kind);
 
 /// One primitive of a shape.
 struct Primitive {
   ShapeKind kind = ShapeKind::sphere;
-  bool hollow =
-      false;  ///< a cylinder whose inside is free: a drum seen from inside
-  Pose local; ///< primitive to body [m]
-  Vec3 size;  ///< by kind, see ShapeKind [m]
+  bool hollow = false;  ///< a cylinder whose inside is free: a drum seen from inside
+  Pose local;           ///< primitive to body [m]
+  Vec3 size;            ///< by kind, see ShapeKind [m]
   std::uint32_t first_sphere = 0, sphere_count = 0;
   std::uint32_t first_vertex = 0, vertex_count = 0;
-  std::uint32_t first_face = 0, face_count = 0; ///< of a hull
+  std::uint32_t first_face = 0, face_count = 0;  ///< of a hull
   std::uint32_t first_triangle = 0,
-                triangle_count = 0; ///< of a mesh or of the surface of a hull
-  double bounding_radius =
-      0.0; ///< about the primitive's origin [m]; infinite for a plane
+                triangle_count = 0;  ///< of a mesh or of the surface of a hull
+  double bounding_radius = 0.0;      ///< about the primitive's origin [m]; infinite for a plane
 };
 
 /// A sphere of a cluster.
 struct Sphere {
-  Vec3 centre;         ///< in the primitive's frame [m]
-  double radius = 0.0; ///< [m]
+  Vec3 centre;          ///< in the primitive's frame [m]
+  double radius = 0.0;  ///< [m]
 };
 
 /// A face of a convex hull: the solid satisfies dot(normal, x) <= offset.
 struct Face {
-  Vec3 normal;         ///< outward unit normal [1], primitive's frame
-  double offset = 0.0; ///< [m]
+  Vec3 normal;          ///< outward unit normal [1], primitive's frame
+  double offset = 0.0;  ///< [m]
 };
 
 /// Vertices of a triangle, indices into vertices(), counter-clockwise seen from
@@ -69,58 +67,52 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Shape {
   std::string name;
   std::uint32_t first_primitive = 0, primitive_count = 0;
-  double volume = 0.0; ///< of the solid [m3]
-  Vec3 unit_inertia;   ///< principal moments for a density of 1 [m5]
-  Pose body_to_shape; ///< where the body frame (centre of mass, principal axes)
-                      ///< sits in the shape as written
-  double bounding_radius =
-      0.0; ///< about the centre of mass [m]; infinite with a plane
-  double equivalent_radius = 0.0; ///< of the sphere of equal volume [m]
+  double volume = 0.0;             ///< of the solid [m3]
+  Vec3 unit_inertia;               ///< principal moments for a density of 1 [m5]
+  Pose body_to_shape;              ///< where the body frame (centre of mass, principal axes)
+                                   ///< sits in the shape as written
+  double bounding_radius = 0.0;    ///< about the centre of mass [m]; infinite with a plane
+  double equivalent_radius = 0.0;  ///< of the sphere of equal volume [m]
 };
 
 /// A primitive to be put into a shape, with its own data.
 struct PrimitiveData {
-  Primitive primitive; ///< kind, hollow, local, size; ranges are filled in by
-                       ///< ShapeSet
+  Primitive primitive;  ///< kind, hollow, local, size; ranges are filled in by
+                        ///< ShapeSet
   std::vector<Sphere> spheres;
-  std::vector<Vec3> vertices; ///< [m], primitive's frame
+  std::vector<Vec3> vertices;  ///< [m], primitive's frame
   std::vector<Face> faces;
-  std::vector<Triangle> triangles; ///< indices into `vertices`
+  std::vector<Triangle> triangles;  ///< indices into `vertices`
 };
 
 /// A shape to be added.
 struct ShapeData {
   std::string name;
-  std::vector<PrimitiveData>
-      primitives;      ///< their local poses are in the body frame
-  double volume = 0.0; ///< [m3]
-  Vec3 unit_inertia;   ///< [m5]
-  Pose body_to_shape;  ///< [m]
+  std::vector<PrimitiveData> primitives;  ///< their local poses are in the body frame
+  double volume = 0.0;                    ///< [m3]
+  Vec3 unit_inertia;                      ///< [m5]
+  Pose body_to_shape;                     ///< [m]
 };
 
 /// All shapes of a simulation. Shapes are only ever added.
 class ShapeSet {
-public:
+ public:
   /// Adds a shape and returns its index. Bounds are computed here.
-  std::uint32_t add(const ShapeData &data);
+  std::uint32_t add(const ShapeData& data);
 
   [[nodiscard]] std::span<const Shape> shapes() const { return shapes_; }
-  [[nodiscard]] std::span<const Primitive> primitives() const {
-    return primitives_;
-  }
-  [[nodiscard]] std::span<const Primitive> primitives(const Shape &s) const {
+  [[nodiscard]] std::span<const Primitive> primitives() const { return primitives_; }
+  [[nodiscard]] std::span<const Primitive> primitives(const Shape& s) const {
     return primitives().subspan(s.first_primitive, s.primitive_count);
   }
   [[nodiscard]] std::span<const Sphere> spheres() const { return spheres_; }
   [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
   [[nodiscard]] std::span<const Face> faces() const { return faces_; }
-  [[nodiscard]] std::span<const Triangle> triangles() const {
-    return triangles_;
-  }
+  [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
   /// The index of a shape by name, or -1.
   [[nodiscard]] std::int64_t find(std::string_view name) const;
 
-private:
+ private:
   std::vector<Shape> shapes_;
   std::vector<Primitive> primitives_;
   std::vector<Sphere> spheres_;
@@ -131,7 +123,6 @@ private:
 
 /// The tight axis-aligned box of a primitive at a pose of its own frame in the
 /// world.
-[[nodiscard]] Aabb bounds(const ShapeSet &shapes, const Primitive &primitive,
-                          const Pose &world);
+[[nodiscard]] Aabb bounds(const ShapeSet& shapes, const Primitive& primitive, const Pose& world);
 
-} // namespace scree
+}  // namespace scree

@@ -12,12 +12,12 @@ namespace scree {
 /// and the grain only, never on the number of threads, so that sums taken chunk
 /// by chunk are bit-identical for any number of threads.
 class Executor {
-public:
+ public:
   /// `threads` >= 1; 1 runs everything on the calling thread.
   explicit Executor(int threads);
   ~Executor();
-  Executor(const Executor &) = delete;
-  Executor &operator=(const Executor &) = delete;
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
 
   [[nodiscard]] int threads() const { return threads_; }
 
@@ -25,19 +25,17 @@ public:
   /// of [0, count), in any order, and waits. The first exception thrown by a
   /// chunk is thrown again here.
   void for_chunks(std::size_t count, std::size_t grain,
-                  const std::function<void(std::size_t first, std::size_t last)>
-                      &body) const;
+                  const std::function<void(std::size_t first, std::size_t last)>& body) const;
 
   /// Number of chunks that for_chunks() makes, for per-chunk results.
-  [[nodiscard]] static std::size_t chunk_count(std::size_t count,
-                                               std::size_t grain) {
+  [[nodiscard]] static std::size_t chunk_count(std::size_t count, std::size_t grain) {
     return grain == 0 ? 0 : (count + grain - 1) / grain;
   }
 
-private:
+ private:
   struct Arena;
   int threads_;
   std::unique_ptr<Arena> arena_;
 };
 
-} // namespace scree
+}  // namespace scree

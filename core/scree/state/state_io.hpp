@@ -19,11 +19,10 @@ namespace scree {
 
 /// Writes named arrays and texts into one group of a checkpoint.
 class StateWriter {
-public:
+ public:
   virtual ~StateWriter();
   virtual void write(std::string_view name, std::span<const double> values) = 0;
-  virtual void write(std::string_view name,
-                     std::span<const std::uint64_t> values) = 0;
+  virtual void write(std::string_view name, std::span<const std::uint64_t> values) = 0;
   virtual void write(std::string_view name, std::string_view text) = 0;
   /// A sub-group, for a part made of parts.
   virtual std::unique_ptr<StateWriter> group(std::string_view name) = 0;
@@ -37,16 +36,13 @@ public:
 /// Reads what a StateWriter wrote. @throws Error (io) when a name is missing or
 /// of another kind.
 class StateReader {
-public:
+ public:
   virtual ~StateReader();
   [[nodiscard]] virtual bool has(std::string_view name) const = 0;
-  [[nodiscard]] virtual std::vector<double>
-  doubles(std::string_view name) const = 0;
-  [[nodiscard]] virtual std::vector<std::uint64_t>
-  integers(std::string_view name) const = 0;
+  [[nodiscard]] virtual std::vector<double> doubles(std::string_view name) const = 0;
+  [[nodiscard]] virtual std::vector<std::uint64_t> integers(std::string_view name) const = 0;
   [[nodiscard]] virtual std::string text(std::string_view name) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<StateReader>
-  group(std::string_view name) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<StateReader> group(std::string_view name) const = 0;
 
   [[nodiscard]] std::vector<Vec3> vectors(std::string_view name) const;
   [[nodiscard]] std::vector<Quat> quaternions(std::string_view name) const;
@@ -54,4 +50,4 @@ public:
   [[nodiscard]] std::uint64_t integer(std::string_view name) const;
 };
 
-} // namespace scree
+}  // namespace scree
