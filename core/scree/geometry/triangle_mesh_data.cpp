@@ -1,0 +1,167 @@
+#include "scree/geometry/triangle_mesh_data.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "scree/base/require.hpp"
+
+namespace scree {
+namespace {
+
+/// One side of a triangle: its ends in ascending order, and whether the triangle passes it upwards.
+struct Side {
+  std::uint32_t low, high;
+  bool upwards;
+};
+
+std::vector<Side> sides_of(const TriangleMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), a < b});
+    }
+  }
+  std::ranges::sort(sides, {}, [](const Side& s) { return std::pair{s.low, s.high}; });
+  return sides;
+}
+
+/// Counts faulty edges; returns the number of edges.
+std::size_t count_edges(const TriangleMesh& mesh, MeshReport& report) {
+  const std::vector<Side> sides = sides_of(mesh);
+  std::size_t edges = 0;
+  for (std::size_t begin = 0; begin < sides.size(); ++edges) {
+    std::size_t end = begin;
+    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
+    if (end - begin == 1) ++report.open_edges;
+    if (end - begin > 2) ++report.crowded_edges;
+    if (end - begin == 2 && sides[begin].upwards == sides[begin + 1].upwards) ++report.misoriented_edges;
+    begin = end;
+  }
+  return edges;
+}
+
+std::size_t count_used_vertices(const TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) used[v] = true;
+  }
+  return static_cast<std::size_t>(std::ranges::count(used, true));
+}
+
+}  // namespace
+
+bool MeshReport::is_solid() const { return problem().empty(); }
+
+std::string MeshReport::problem() const {
+  const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + " " + what; };
+  if (bad_vertices > 0) return count(bad_vertices, "vertices are not finite numbers; export the mesh again");
+  if (bad_indices > 0) return count(bad_indices, "triangles name a vertex that does not exist; export the mesh again");
+  if (degenerate_triangles > 0) return count(degenerate_triangles, "triangles have no area; remove them");
+  if (open_edges > 0) return count(open_edges, "edges have one triangle only: the surface has holes; close them");
+  if (crowded_edges > 0) return count(crowded_edges, "edges join more than two triangles; make the surface manifold");
+  if (misoriented_edges > 0)
+    return count(misoriented_edges, "edges join triangles of opposite sense; unify the normals");
+  if (inside_out) return "the normals point inwards; flip them";
+  if (!(volume > 0.0)) return "it encloses no volume; a solid needs at least four triangles";
+  return {};
+}
+
+MeshReport check_mesh(const TriangleMesh& mesh) {
+  MeshReport report;
+  report.bad_vertices =
+      static_cast<std::size_t>(std::ranges::count_if(mesh.vertices, [](const Vec3& v) { return !is_finite(v); }));
+  report.bad_indices = static_cast<std::size_t>(std::ranges::count_if(mesh.triangles, [&](const Triangle& t) {
+    return std::ranges::any_of(t, [&](std::uint32_t v) { return v >= mesh.vertices.size(); });
+  }));
+  if (report.bad_vertices + report.bad_indices > 0 || mesh.triangles.empty()) return report;
+
+  const Aabb box = bounds_of(mesh.vertices);
+  const Vec3 middle = 0.5 * (box.lower + box.upper);
+  const double least_area = 1e-14 * squared_norm(box.upper - box.lower);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - middle, b = mesh.vertices[t[1]] - middle, c = mesh.vertices[t[2]] - middle;
+    if (0.5 * norm(cross(b - a, c - a)) <= least_area) ++report.degenerate_triangles;
+    report.volume += dot(a, cross(b, c)) / 6.0;
+  }
+  const std::size_t edges = count_edges(mesh, report);
+  report.euler =
+      static_cast<int>(count_used_vertices(mesh)) - static_cast<int>(edges) + static_cast<int>(mesh.triangles.size());
+  report.inside_out = report.is_closed() && report.is_oriented() && report.volume < 0.0;
+  return report;
+}
+
+TriangleMesh turned_inside_out(TriangleMesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TriangleMesh welded(const TriangleMesh& mesh, double distance) {
+  SCREE_REQUIRE(distance >= 0.0, "welded(): the distance must not be negative");
+  // Sorted along x, each vertex looks back only as far as the distance: O(n log n) for meshes that are not slabs in x.
+  std::vector<std::uint32_t> order(mesh.vertices.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return mesh.vertices[i].x; });
+
+  TriangleMesh result;
+  std::vector<std::uint32_t> new_index(mesh.vertices.size());
+  for (const std::uint32_t i : order) {
+    const Vec3& v = mesh.vertices[i];
+    std::size_t match = result.vertices.size();
+    for (std::size_t k = result.vertices.size(); k-- > 0 && v.x - result.vertices[k].x <= distance;) {
+      const Vec3 d = v - result.vertices[k];
+      if (std::abs(d.y) <= distance && std::abs(d.z) <= distance) match = k;
+    }
+    if (match == result.vertices.size()) result.vertices.push_back(v);
+    new_index[i] = static_cast<std::uint32_t>(match);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle n{new_index[t[0]], new_index[t[1]], new_index[t[2]]};
+    if (n[0] != n[1] && n[1] != n[2] && n[2] != n[0]) result.triangles.push_back(n);
+  }
+  return result;
+}
+
+Aabb bounds_of(std::span<const Vec3> points) {
+  Aabb box = Aabb::empty();
+  for (const Vec3& p : points) box = merged(box, p);
+  return box;
+}
+
+TriangleMesh box_mesh(const Vec3& half_lengths) {
+  TriangleMesh mesh;
+  for (int corner = 0; corner < 8; ++corner) {  // bits of the corner's number: x, y, z on the upper side
+    mesh.vertices.push_back({(corner & 1) ? half_lengths.x : -half_lengths.x,
+                             (corner & 2) ? half_lengths.y : -half_lengths.y,
+                             (corner & 4) ? half_lengths.z : -half_lengths.z});
+  }
+  mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+  return mesh;
+}
+
+TriangleMesh cylinder_mesh(double radius, double half_length, int sides) {
+  SCREE_REQUIRE(sides >= 3, "cylinder_mesh(): a rim needs at least 3 corners");
+  TriangleMesh mesh;
+  const auto n = static_cast<std::uint32_t>(sides);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), -half_length});
+    mesh.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), half_length});
+  }
+  mesh.vertices.push_back({0, 0, -half_length});
+  mesh.vertices.push_back({0, 0, half_length});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t low = 2 * i, next_low = 2 * ((i + 1) % n);
+    mesh.triangles.push_back({low, next_low, next_low + 1});
+    mesh.triangles.push_back({low, next_low + 1, low + 1});
+    mesh.triangles.push_back({2 * n, next_low, low});
+    mesh.triangles.push_back({2 * n + 1, low + 1, next_low + 1});
+  }
+  return mesh;
+}
+
+}  // namespace scree
