@@ -93,7 +93,9 @@ TEST(mass_properties, a_cylinder_mesh_converges_to_the_closed_form_at_second_ord
     const MassProperties mesh = mesh_mass_properties(cylinder_mesh(1.0, 0.5, sides));
     const double error = 1.0 - mesh.volume / closed.volume;
     EXPECT_NEAR(error, 2.0 / 3.0 * kPi * kPi / (sides * sides), 0.02 * error);
-    if (previous > 0.0) EXPECT_NEAR(previous / error, 4.0, 0.1);
+    if (previous > 0.0) {
+      EXPECT_NEAR(previous / error, 4.0, 0.1);
+    }
     EXPECT_NEAR(mesh.inertia.z / closed.inertia.z, 1.0, 3.0 * error);
     previous = error;
   }

@@ -1,4 +1,4 @@
-// Sphere: the primitive from which clusters are made.
+// Sphere: a ball, the part from which clusters are made.
 #pragma once
 
 #include "scree/math/vec3.hpp"

@@ -84,6 +84,20 @@ std::vector<Event> find_events(std::span<const Sphere> spheres, double least_sha
   return kept;
 }
 
+/// Cuts long intervals, because the square roots of a meeting reach beyond the interval that begins there.
+std::vector<Event> with_long_intervals_cut(const std::vector<Event>& events, double greatest_share) {
+  const double greatest = greatest_share * (events.back().z - events.front().z);
+  std::vector<Event> result;
+  for (std::size_t i = 0; i + 1 < events.size(); ++i) {
+    const double length = events[i + 1].z - events[i].z;
+    const int pieces = 1 + static_cast<int>(length / greatest);
+    result.push_back(events[i]);
+    for (int k = 1; k < pieces; ++k) result.push_back({events[i].z + length * k / pieces, false});
+  }
+  result.push_back(events.back());
+  return result;
+}
+
 class Slicer {
  public:
   explicit Slicer(std::span<const Sphere> spheres) : spheres_{spheres} {}
@@ -139,7 +153,8 @@ VolumeMoments sphere_union_moments(std::span<const Sphere> spheres, const Sphere
   std::vector<Sphere> local{spheres.begin(), spheres.end()};
   for (Sphere& s : local) s.centre -= origin;
 
-  const std::vector<Event> events = find_events(local, options.least_interval);
+  const std::vector<Event> events =
+      with_long_intervals_cut(find_events(local, options.least_interval), std::min(0.1, 40.0 * options.least_interval));
   Slicer slicer{local};
   VolumeMoments sum;
   for (std::size_t i = 0; i + 1 < events.size(); ++i) integrate(events[i], events[i + 1], slicer, sum);

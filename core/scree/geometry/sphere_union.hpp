@@ -15,9 +15,9 @@ namespace scree {
 
 /// How finely slices are laid.
 struct SphereUnionOptions {
-  /// Changes of the picture closer together than this share of the height are passed over [1]. The default costs about
-  /// 10 ms for 32 balls; 0.03 costs a tenth of that and is good to 1e-4.
-  double least_interval = 2e-3;
+  /// Changes of the picture closer together than this share of the height are passed over [1]. The default costs some
+  /// milliseconds for 32 balls; 0.03 costs a fraction of that and is good to 1e-4.
+  double least_interval = 5e-4;
 };
 
 /// Volume, first and second moments of the union of balls, about the frame's origin.

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "scree/geometry/face.hpp"
+#include "scree/geometry/sphere.hpp"
 #include "scree/math/aabb.hpp"
 #include "scree/math/pose.hpp"
 
@@ -45,18 +47,6 @@ struct Primitive {
   std::uint32_t first_triangle = 0,
                 triangle_count = 0;  ///< of a mesh or of the surface of a hull
   double bounding_radius = 0.0;      ///< about the primitive's origin [m]; infinite for a plane
-};
-
-/// A sphere of a cluster.
-struct Sphere {
-  Vec3 centre;          ///< in the primitive's frame [m]
-  double radius = 0.0;  ///< [m]
-};
-
-/// A face of a convex hull: the solid satisfies dot(normal, x) <= offset.
-struct Face {
-  Vec3 normal;          ///< outward unit normal [1], primitive's frame
-  double offset = 0.0;  ///< [m]
 };
 
 /// Vertices of a triangle, indices into vertices(), counter-clockwise seen from
