@@ -18,6 +18,9 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 set(SCREE_PLUGIN_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/scree/plugins)
 
+# Debian's own Python: python3-vtk9, with which tests read results, belongs to it and to no other.
+set(SCREE_PYTHON /usr/bin/python3 CACHE FILEPATH "Python that runs tests and checks")
+
 # ccache with paths relative to this tree: two clones of it share what they compiled.
 find_program(SCREE_CCACHE ccache)
 if(SCREE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

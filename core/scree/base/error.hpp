@@ -16,7 +16,7 @@ struct SourceLocation {
 /// "file:line:column: ", or what of it is known; empty for no place.
 [[nodiscard]] std::string to_prefix(const SourceLocation& where);
 
-/// Which exit code a failure becomes (DESIGN section 5).
+/// Which exit code a failure becomes (docs/architecture.md, errors).
 enum class ErrorKind {
   usage = 2,     ///< command line, scene or plugin: the user can correct it
   diverged = 3,  ///< NaN, overflow or exploding energy during a step

@@ -29,7 +29,7 @@ class StepServices {
   /// next call.
   virtual std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
                                             std::span<const Vec3> free_angular_velocity, double dt) = 0;
-  /// Solves a CCP with the scene's solver and judges the answer.
+  /// Solves a CCP with the scene's solver and judges the answer; `gamma` [N s]: warm start in, impulses out.
   virtual SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) = 0;
   [[nodiscard]] virtual const Materials& materials() const = 0;
   [[nodiscard]] virtual const Executor& executor() const = 0;

@@ -5,7 +5,7 @@
 
 namespace scree {
 
-/// A 3 x 3 matrix, given by its rows.
+/// A 3 x 3 matrix in [any unit], given by its rows; its unit and frames are stated where it is declared.
 struct Mat3 {
   Vec3 row0;
   Vec3 row1;

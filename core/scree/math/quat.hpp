@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// A quaternion w + x i + y j + z k; an orientation when its norm is one.
+/// A quaternion w + x i + y j + z k; an orientation when its norm is one [1].
 struct Quat {
   double w = 1.0;
   double x = 0.0;

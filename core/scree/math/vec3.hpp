@@ -8,8 +8,7 @@
 
 namespace scree {
 
-/// A vector of three doubles; its unit and frame are stated where it is
-/// declared.
+/// A vector of three doubles in [any unit]; its unit and frame are stated where it is declared.
 struct Vec3 {
   double x = 0.0;
   double y = 0.0;
