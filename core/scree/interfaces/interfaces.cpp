@@ -1,5 +1,5 @@
-// What the interfaces do when a part does not override them. Their destructors live here, so that every interface has
-// one type description, in libscree, that plugins share.
+// The out-of-line members of the interfaces: their destructors anchor the type information in libscree, so that a part
+// made in a plugin is recognised by the host, and the defaults of optional calls stand in one place.
 #include "scree/interfaces/broad_phase.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 #include "scree/interfaces/electric_field.hpp"
@@ -15,42 +15,41 @@
 namespace scree {
 
 Plugin::~Plugin() = default;
-void Plugin::save(StateWriter& /*out*/) const {}
-void Plugin::load(const StateReader& /*in*/) {}
-
-PluginCatalog::~PluginCatalog() = default;
-SceneServices::~SceneServices() = default;
-StepServices::~StepServices() = default;
-
-ForceField::~ForceField() = default;
-void ForceField::setup(SceneServices& /*services*/) {}
-double ForceField::potential_energy(const BodyView& /*bodies*/, double /*time*/) const { return 0.0; }
-void ForceField::advance(const BodyView& /*bodies*/, const ContactView& /*contacts*/, Attributes& /*attributes*/,
-                         double /*time*/, double /*dt*/) {}
-
-ElectricField::~ElectricField() = default;
-void ElectricField::setup(SceneServices& /*services*/) {}
+void Plugin::save(StateWriter&) const {}
+void Plugin::load(const StateReader&) {}
 
 BroadPhase::~BroadPhase() = default;
 
-NarrowPhase::~NarrowPhase() = default;
-void NarrowPhase::bind(const ShapeSet& /*shapes*/, std::size_t /*first_new_primitive*/) {}
-
 CcpSolver::~CcpSolver() = default;
 
-TimeStepper::~TimeStepper() = default;
-void TimeStepper::setup(SceneServices& /*services*/) {}
+ElectricField::~ElectricField() = default;
+void ElectricField::setup(SceneServices&) {}
 
-Source::~Source() = default;
-void Source::setup(SceneServices& /*services*/) {}
+ForceField::~ForceField() = default;
+void ForceField::setup(SceneServices&) {}
+double ForceField::potential_energy(const BodyView&, double) const { return 0.0; }
+void ForceField::advance(const BodyView&, const ContactView&, Attributes&, double, double) {}
 
-Sink::~Sink() = default;
-void Sink::setup(SceneServices& /*services*/) {}
+NarrowPhase::~NarrowPhase() = default;
+void NarrowPhase::bind(const ShapeSet&, std::size_t) {}
 
 Observer::~Observer() = default;
-void Observer::setup(SceneServices& /*services*/, const std::filesystem::path& /*results*/) {}
-void Observer::finish(const Observation& /*last*/) {}
+void Observer::setup(SceneServices&, const std::filesystem::path&) {}
+void Observer::finish(const Observation&) {}
 std::vector<ReportTable> Observer::report() const { return {}; }
+
+Sink::~Sink() = default;
+void Sink::setup(SceneServices&) {}
+
+Source::~Source() = default;
+void Source::setup(SceneServices&) {}
+
+StepServices::~StepServices() = default;
+TimeStepper::~TimeStepper() = default;
+void TimeStepper::setup(SceneServices&) {}
+
+SceneServices::~SceneServices() = default;
+PluginCatalog::~PluginCatalog() = default;
 
 std::string_view to_string(SolveStatus status) {
   switch (status) {

@@ -40,7 +40,7 @@ class Materials {
   /// Adds a material and returns its index. @throws std::logic_error for a name
   /// used twice.
   std::uint32_t add(Material material);
-  void set_rule(PairRule rule) { rule_ = rule; }
+  void set_rule(PairRule rule);
   /// Lists a pair explicitly; order does not matter.
   void set_pair(std::uint32_t a, std::uint32_t b, const ContactMaterial& values);
 

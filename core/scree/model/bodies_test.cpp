@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "scree/model/body_store.hpp"
+
+namespace scree {
+namespace {
+
+NewBody at(double x) {
+  NewBody body;
+  body.pose.position = {x, 0, 0};
+  return body;
+}
+
+TEST(BodyStore, ids_are_stable_while_bodies_come_and_go) {
+  BodyStore bodies;
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(bodies.add(at(i)), static_cast<BodyId>(i));
+  const std::vector<char> remove{0, 1, 0, 1, 0};
+  bodies.remove(remove);
+  EXPECT_EQ(bodies.add(at(9)), 5u) << "an id is never used twice";
+  const BodyView view = bodies.view();
+  ASSERT_EQ(view.size(), 4u);
+  EXPECT_EQ(std::vector<BodyId>(view.id.begin(), view.id.end()), (std::vector<BodyId>{0, 2, 4, 5}));
+  EXPECT_EQ(view.position[2].x, 4.0);
+  EXPECT_EQ(bodies.find(4), 2);
+  EXPECT_EQ(bodies.find(3), -1);
+}
+
+TEST(BodyStore, attributes_follow_their_bodies) {
+  BodyStore bodies;
+  const AttributeId charge = bodies.attributes().declare({"charge", "C", "", 1.0, {}});
+  for (int i = 0; i < 3; ++i) {
+    NewBody body = at(i);
+    if (i == 2) body.attributes = {{charge, 7.0}};
+    bodies.add(body);
+  }
+  const AttributeId late = bodies.attributes().declare({"age", "s", "", -1.0, {}});
+  const std::vector<char> remove{1, 0, 0};
+  bodies.remove(remove);
+  EXPECT_EQ(bodies.attributes().column(charge)[0], 1.0);
+  EXPECT_EQ(bodies.attributes().column(charge)[1], 7.0);
+  EXPECT_EQ(bodies.attributes().column(late)[1], -1.0) << "a late column reaches the bodies that exist";
+}
+
+TEST(BodyStore, hash_sees_a_single_bit) {
+  BodyStore bodies;
+  bodies.add(at(1.0));
+  const std::uint64_t before = bodies.hash();
+  bodies.state().position[0].x = std::nextafter(1.0, 2.0);
+  EXPECT_NE(bodies.hash(), before);
+}
+
+// I_world = R diag(I) R^T: turned by 90 degrees about z, x and y change places.
+TEST(Body, inverse_inertia_turns_with_the_body) {
+  BodyStore bodies;
+  NewBody body = at(0);
+  body.inertia = {1.0, 2.0, 4.0};
+  body.pose.orientation = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
+  bodies.add(body);
+  const Mat3 inverse = inverse_inertia(bodies.view(), 0);
+  EXPECT_NEAR(inverse.row0.x, 0.5, 1e-15);
+  EXPECT_NEAR(inverse.row1.y, 1.0, 1e-15);
+  EXPECT_NEAR(inverse.row2.z, 0.25, 1e-15);
+  EXPECT_NEAR(inverse.row0.y, 0.0, 1e-15);
+}
+
+TEST(Attributes, unknown_names_are_refused) {
+  Attributes attributes;
+  EXPECT_THROW(static_cast<void>(attributes.id("charge")), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace scree
