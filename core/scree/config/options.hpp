@@ -1,18 +1,16 @@
-// Options: one validated table of a scene, as its reader (a plugin, or core)
-// sees it.
+// Options: one validated table of a scene, as its reader (a plugin, or core) sees it.
 //
-// Every key was checked against the Parameters that the reader described: it
-// exists, has the right kind, is in SI and in range, and defaults are filled
-// in. Asking for a key that was not described is a programming error and throws
+// Every key was checked against the Parameters that the reader described: it exists, has the right kind, is in SI and
+// in range, and defaults are filled in. Asking for a key that was not described is a programming error and throws
 // std::logic_error.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scree/base/error.hpp"
@@ -20,8 +18,7 @@
 
 namespace scree {
 
-/// A validated table: typed values by name, each with the place it came from. A
-/// value type; copies are deep.
+/// A validated table: typed values by name, each with the place it came from. A value type; copies are deep.
 class Options {
  public:
   struct Entry;
@@ -33,8 +30,8 @@ class Options {
   Options& operator=(const Options&);
   Options& operator=(Options&&) noexcept;
 
-  /// False only for a setting described as optional() that the scene leaves
-  /// out.
+  /// False only for a setting described as optional() that the scene leaves out (and in default_options() for a
+  /// required one). Asking it for its value then is a programming error, except that tables() gives an empty list.
   [[nodiscard]] bool has(std::string_view name) const;
   /// True when the scene (or --set) wrote the key; false for a default.
   [[nodiscard]] bool given(std::string_view name) const;
@@ -54,19 +51,15 @@ class Options {
   [[nodiscard]] const Options& table(std::string_view name) const;
   [[nodiscard]] const std::vector<Options>& tables(std::string_view name) const;
 
-  /// For a variant: the chosen `type`. For a plugin's own section: the plugin's
-  /// name. Else empty.
+  /// For a variant: the chosen `type`. For a plugin's own section: the plugin's name. Else empty.
   [[nodiscard]] const std::string& type() const { return type_; }
-  /// The keys that hold a value, in the order of description (free keys of
-  /// `columns`: alphabetical).
+  /// The keys that hold a value, in the order of description (free keys of `columns`: alphabetical).
   [[nodiscard]] std::vector<std::string> names() const;
 
-  /// Where a key was written; where its table begins when the value is a
-  /// default.
+  /// Where a key was written; where its table begins when the value is a default.
   [[nodiscard]] SourceLocation location(std::string_view name) const;
   [[nodiscard]] const SourceLocation& location() const { return location_; }
-  /// An Error at the place of a key, for what only the reader can check: `throw
-  /// options.error("radius", "...")`.
+  /// An Error at the place of a key, for what only the reader can check: `throw options.error("radius", "...")`.
   [[nodiscard]] Error error(std::string_view name, const std::string& sentence) const;
   [[nodiscard]] Error error(const std::string& sentence) const;
 
@@ -76,9 +69,15 @@ class Options {
   void set_location(SourceLocation where) { location_ = std::move(where); }
   /// For tests and C++ callers: sets a value as if a scene had written it.
   void set(const std::string& name, Parameter::Value value);
+  /// The entry of a key that holds a value, else null.
   [[nodiscard]] const Entry* find(std::string_view name) const;
 
  private:
+  [[nodiscard]] const Entry& described(std::string_view name) const;
+  [[nodiscard]] const Entry& present(std::string_view name) const;
+  template <class T>
+  [[nodiscard]] const T& value(std::string_view name, const char* kind) const;
+
   std::string type_;
   SourceLocation location_;
   std::vector<std::pair<std::string, std::unique_ptr<Entry>>> entries_;
@@ -87,11 +86,11 @@ class Options {
 /// A value of a table: scalar or list, nested tables, and where it was written.
 struct Options::Entry {
   Parameter::Value value;
-  std::vector<Options> tables;  ///< one for a table or variant, any number for
-                                ///< tables and variants
+  std::vector<Options> tables;  ///< one for a table or variant, any number for tables and variants
   std::filesystem::path base;   ///< folder that a path is relative to
   SourceLocation where;
   bool given = true;
+  bool present = true;  ///< false for a described setting without a value
 };
 
 }  // namespace scree

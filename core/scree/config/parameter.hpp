@@ -1,13 +1,11 @@
 // Parameter: the description of one setting, as data.
 //
-// A plugin states its settings once, as a list of Parameters. Parsing, unit
-// conversion, range checks, messages about unknown keys, `scree plugins show`,
-// the JSON Schema and the printed defaults all come from that list.
+// A plugin states its settings once, as a list of Parameters. Parsing, unit conversion, range checks, messages about
+// unknown keys, `scree plugins show`, the JSON Schema and the printed defaults all come from that list.
 //
 //     Parameter::number("radius", "m", "outer radius of the roll").above(0.0)
-//     Parameter::vector("acceleration", "m/s2", "of free
-//     fall").by_default(Vec3{0, 0, -9.81}) Parameter::choice("law", {"stokes",
-//     "schiller_naumann"}, "drag coefficient").by_default("stokes")
+//     Parameter::vector("acceleration", "m/s2", "of free fall").by_default(Vec3{0, 0, -9.81})
+//     Parameter::choice("law", {"stokes", "schiller_naumann"}, "drag coefficient").by_default("stokes")
 #pragma once
 
 #include <cstdint>
@@ -33,11 +31,9 @@ enum class ValueKind {
   texts,     ///< a list of strings
   table,     ///< a nested table with members of its own
   tables,    ///< a list of such tables
-  variant,   ///< a table whose `type` chooses the members, for example a size
-             ///< distribution
+  variant,   ///< a table whose `type` chooses the members, for example a size distribution
   variants,  ///< a list of such tables
-  columns,   ///< a table of free keys, each a variant or a number: for example
-             ///< body attributes by name
+  columns,   ///< a table of free keys, each a variant or a number: for example body attributes by name
 };
 
 struct Variant;
@@ -63,8 +59,9 @@ class Parameter {
   static Parameter variants(std::string name, std::vector<Variant> variants, std::string help);
   static Parameter columns(std::string name, std::vector<Variant> variants, std::string unit, std::string help);
 
-  /// The value that holds when the scene is silent; without one, and not
-  /// optional, the setting is required.
+  /// The value that holds when the scene is silent; without one, and not optional, the setting is required. A table
+  /// whose members all have defaults may be left out. The default of a variant is its shorthand's value or a `type`.
+  /// @throws std::logic_error when the value is of another kind.
   Parameter by_default(Value value) &&;
   Parameter by_default(double value) && { return std::move(*this).by_default(Value{value}); }
   Parameter by_default(int value) && { return std::move(*this).by_default(Value{std::int64_t{value}}); }
@@ -73,15 +70,15 @@ class Parameter {
   /// The setting may be absent; Options::has() tells.
   Parameter optional() &&;
   /// Smallest and largest valid value, in the parameter's SI unit.
-  Parameter at_least(double minimum) &&;
-  Parameter at_most(double maximum) &&;
+  Parameter at_least(double smallest) &&;
+  Parameter at_most(double largest) &&;
   /// Values must be strictly greater than `bound`, in the parameter's SI unit.
   Parameter above(double bound) &&;
-  /// A list must have exactly (or, with `at_least_count`, at least) this many
-  /// entries.
-  Parameter with_count(int count) &&;
-  /// A plain number stands for the variant `type` with its member `member` set:
-  /// `size = "3 mm"`.
+  /// A list must have exactly this many entries.
+  Parameter with_count(int entries) &&;
+  /// A list must have this many entries or more.
+  Parameter with_at_least_count(int entries) &&;
+  /// A plain number stands for the variant `type` with its member `member` set: `size = "3 mm"`.
   Parameter with_shorthand(std::string type, std::string member) &&;
 
   std::string name;
@@ -94,6 +91,7 @@ class Parameter {
   double maximum = std::numeric_limits<double>::infinity();   ///< [unit of the parameter]
   bool minimum_excluded = false;
   int count = -1;                     ///< required length of a list, -1 for any
+  int minimum_count = 0;              ///< smallest length of a list
   std::vector<std::string> words;     ///< of a choice
   std::vector<Parameter> members;     ///< of a table
   std::vector<Variant> alternatives;  ///< of a variant
@@ -101,8 +99,7 @@ class Parameter {
   std::string shorthand_member;
 };
 
-/// One alternative of a variant: the value of `type`, and the members that go
-/// with it.
+/// One alternative of a variant: the value of `type`, and the members that go with it.
 struct Variant {
   std::string type;
   std::string help;

@@ -1,5 +1,4 @@
-// A scene as text: TOML files with includes and overrides merged into one tree
-// that remembers every place.
+// A scene as text: TOML files with includes and overrides merged into one tree that remembers every place.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +12,7 @@
 
 namespace scree {
 
-/// One table of a scene document, read-only. A light handle; the document must
-/// outlive it.
+/// One table of a scene document, read-only. A light handle; the document must outlive it.
 class SceneTable {
  public:
   struct Node;
@@ -24,17 +22,15 @@ class SceneTable {
   [[nodiscard]] SourceLocation location() const;
   [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] bool has(std::string_view key) const;
-  /// The table under `key`; a plain table or a single-entry list. @throws Error
-  /// (usage) when it is not a table.
+  /// The table under `key`; a plain table or a single-entry list. @throws Error (usage) when it is not a table.
   [[nodiscard]] SceneTable table(std::string_view key) const;
-  /// The tables of a list `[[key]]`, in order; a plain table counts as a list
-  /// of one; empty when absent.
+  /// The tables of a list `[[key]]`, in order; a plain table counts as a list of one; empty when absent.
   [[nodiscard]] std::vector<SceneTable> tables(std::string_view key) const;
   /// The string under `key`. @throws Error (usage) when absent or not a string.
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] SourceLocation location(std::string_view key) const;
-  /// A copy of this table without some keys, so that core can take its own keys
-  /// before a plugin's are checked. The copy lives as long as the document.
+  /// A copy of this table without some keys, so that core can take its own keys before a plugin's are checked.
+  /// The copy lives as long as the document.
   [[nodiscard]] SceneTable without(std::span<const std::string_view> keys) const;
 
  private:
@@ -44,16 +40,16 @@ class SceneTable {
 /// A scene file with its includes and the overrides of the command line.
 class SceneDocument {
  public:
-  /// Reads `file`, then merges the files of its `include = [...]` beneath it
-  /// (its own keys win; lists of tables are appended after the included ones)
-  /// and applies overrides "key.sub=value" on top, where `[[list]]` entries are
-  /// addressed as `source.0.rate` or, when they have a name or type,
-  /// `source.emitter.rate`.
-  /// @throws Error (io) for a missing file, (usage) for a syntax error, a
-  /// cycle, an override that names no table.
+  /// Reads `file`, then merges the files of its `include = [...]` beneath it (its own keys win; lists of tables are
+  /// appended after the included ones) and applies overrides "key.sub=value" on top, where `[[list]]` entries are
+  /// addressed as `source.0.rate` or, when they have a name or type, `source.emitter.rate`.
+  /// A later include wins over an earlier one, and a file that several include is merged once. The value of an override
+  /// is a TOML value if it can be read as one, else a string; paths in it start from the working directory.
+  /// @throws Error (io) for a missing file, (usage) for a syntax error, a cycle, an override that names no table.
   static SceneDocument load(const std::filesystem::path& file, std::span<const std::string> overrides = {});
   /// From text, for tests; `name` stands for the file in messages.
-  static SceneDocument parse(std::string_view toml, const std::string& name = "scene.toml");
+  static SceneDocument parse(std::string_view toml, const std::string& name = "scene.toml",
+                             std::span<const std::string> overrides = {});
 
   SceneDocument(SceneDocument&&) noexcept;
   SceneDocument& operator=(SceneDocument&&) noexcept;

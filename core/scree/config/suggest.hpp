@@ -8,8 +8,7 @@
 
 namespace scree {
 
-/// The candidate nearest to `word` in edit distance (transpositions count one),
-/// or empty when none is near.
+/// The candidate nearest to `word` in edit distance (transpositions count one), or empty when none is near.
 [[nodiscard]] std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 /// "'a', 'b' and 'c'" for messages; "none" for an empty list.
