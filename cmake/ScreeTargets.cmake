@@ -43,7 +43,7 @@ function(scree_add_program name)
   target_link_libraries(${name} PRIVATE scree::core scree_flags ${arg_LIBRARIES})
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   add_dependencies(scree_runtime ${name})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${name} EXPORT scree-targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
 # scree_add_benchmark(NAME SOURCES ... [LIBRARIES ...]): a Google Benchmark program; `./dev bench NAME` runs it.
