@@ -38,9 +38,10 @@ inline constexpr std::size_t kShapeKindCount = 9;
 /// One primitive of a shape.
 struct Primitive {
   ShapeKind kind = ShapeKind::sphere;
-  bool hollow = false;  ///< a cylinder whose inside is free: a drum seen from inside
-  Pose local;           ///< primitive to body [m]
-  Vec3 size;            ///< by kind, see ShapeKind [m]
+  bool hollow = false;   ///< a cylinder whose inside is free: a drum seen from inside
+  bool collides = true;  ///< false: no pair is made with it
+  Pose local;            ///< primitive to body [m]
+  Vec3 size;             ///< by kind, see ShapeKind [m]
   std::uint32_t first_sphere = 0, sphere_count = 0;
   std::uint32_t first_vertex = 0, vertex_count = 0;
   std::uint32_t first_face = 0, face_count = 0;  ///< of a hull
