@@ -1,0 +1,58 @@
+// ContactMemory: carries the impulses of one step to the contacts of the next.
+//
+// Contacts are known by the ids of their bodies, their primitives and their
+// feature. Old and new keys are sorted, so that one walk through both finds all
+// pairs. Impulses are kept in the world: a contact's frame turns with its
+// normal.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scree/collision/contact.hpp"
+#include "scree/model/body.hpp"
+
+namespace scree {
+
+class StateReader;
+class StateWriter;
+
+/// What stays of a contact from step to step. Ordered as contacts are: by a, b,
+/// primitives, feature.
+struct ContactKey {
+  BodyId a = 0;
+  BodyId b = 0;
+  std::uint32_t primitive_a = 0;
+  std::uint32_t primitive_b = 0;
+  std::uint64_t feature = 0;
+
+  auto operator<=>(const ContactKey&) const = default;
+};
+
+/// The key of a contact between bodies of `bodies`.
+[[nodiscard]] inline ContactKey contact_key(const BodyView& bodies, const Contact& c) {
+  return {bodies.id[c.a], bodies.id[c.b], c.primitive_a, c.primitive_b, c.feature};
+}
+
+/// Impulses by contact key. Part of what a checkpoint holds.
+class ContactMemory {
+ public:
+  /// The impulse last stored for each of `keys` (sorted) [N s], world; zero for
+  /// a contact that was not there.
+  void recall(std::span<const ContactKey> keys, std::span<Vec3> impulse) const;
+  /// Replaces everything by these: `keys` sorted, impulses on b [N s], world.
+  void store(std::span<const ContactKey> keys, std::span<const Vec3> impulse);
+  void clear();
+  [[nodiscard]] std::size_t size() const { return keys_.size(); }
+
+  void save(StateWriter& out) const;
+  void load(const StateReader& in);
+
+ private:
+  std::vector<ContactKey> keys_;
+  std::vector<Vec3> impulse_;
+};
+
+}  // namespace scree

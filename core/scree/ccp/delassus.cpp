@@ -1,0 +1,111 @@
+#include "scree/ccp/delassus.hpp"
+
+#include <algorithm>
+
+#include "scree/base/require.hpp"
+
+namespace scree {
+
+void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor) {
+  SCREE_REQUIRE(problem.inverse_inertia.size() == problem.bodies() && problem.r.size() == problem.rows() &&
+                    (problem.compliance.empty() || problem.compliance.size() == problem.rows()),
+                "DelassusOperator: the spans of the CCP differ in length");
+  problem_ = &problem;
+  executor_ = executor;
+  partition_.build(problem);
+  slots_.resize(partition_.slot_count());
+  w_.resize(problem.bodies());
+}
+
+void DelassusOperator::body_velocities(std::span<const double> gamma, std::span<Twist> w) {
+  for_chunks(slots_.size(), [&](std::size_t first, std::size_t last) {
+    std::fill(slots_.begin() + static_cast<std::ptrdiff_t>(first), slots_.begin() + static_cast<std::ptrdiff_t>(last),
+              Twist{});
+  });
+  for_chunks(problem_->blocks(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const SlotPair slot = partition_.slots()[i];
+      add_impulse(problem_->contacts[i], load_block(gamma, i), slots_[slot.a], slots_[slot.b]);
+    }
+  });
+  reduce_slots(slots_, w);
+}
+
+void DelassusOperator::reduce_slots(std::span<const Twist> slots, std::span<Twist> w) const {
+  const std::span<const std::uint32_t> first_slot = partition_.first_slot();
+  for_chunks(problem_->bodies(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      Twist sum;
+      for (std::uint32_t s = first_slot[k]; s < first_slot[k + 1]; ++s) sum += slots[s];
+      w[k] = apply_inverse_mass(*problem_, k, sum);
+    }
+  });
+}
+
+void DelassusOperator::contact_velocities(std::span<const Twist> w, std::span<const double> gamma,
+                                          std::span<double> out) const {
+  const bool compliant = !problem_->compliance.empty();
+  for_chunks(problem_->blocks(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const CcpContact& c = problem_->contacts[i];
+      Vec3 u = relative_velocity(c, w[c.a], w[c.b]);
+      if (compliant) u += hadamard(load_block(problem_->compliance, i), load_block(gamma, i));
+      store_block(out, i, u);
+    }
+  });
+}
+
+void DelassusOperator::apply(std::span<const double> gamma, std::span<double> out) {
+  body_velocities(gamma, w_);
+  contact_velocities(w_, gamma, out);
+}
+
+double DelassusOperator::objective(std::span<const double> gamma) {
+  body_velocities(gamma, w_);
+  const bool compliant = !problem_->compliance.empty();
+  partial_.assign(Executor::chunk_count(problem_->blocks(), kGrain), 0.0);
+  for_chunks(problem_->blocks(), [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      const CcpContact& c = problem_->contacts[i];
+      const Vec3 g = load_block(gamma, i);
+      Vec3 u = relative_velocity(c, w_[c.a], w_[c.b]);
+      if (compliant) u += hadamard(load_block(problem_->compliance, i), g);
+      sum += dot(g, 0.5 * u + load_block(problem_->r, i));
+    }
+    partial_[first / kGrain] = sum;
+  });
+  double total = 0.0;
+  for (const double p : partial_) total += p;
+  return total;
+}
+
+Mat3 diagonal_block(const CcpProblem& problem, std::size_t block) {
+  const CcpContact& c = problem.contacts[block];
+  // Velocity that a world impulse p causes at the contact: K p, summed over both bodies.
+  const Mat3 ra = skew(c.arm_a), rb = skew(c.arm_b);
+  const double m = problem.inverse_mass[c.a] + problem.inverse_mass[c.b];
+  const Mat3 k = Mat3::diagonal({m, m, m}) + transpose(ra) * (problem.inverse_inertia[c.a] * ra) +
+                 transpose(rb) * (problem.inverse_inertia[c.b] * rb);
+  const Mat3 rows{c.normal, c.tangent1, cross(c.normal, c.tangent1)};
+  Mat3 n = rows * (k * transpose(rows));
+  if (!problem.compliance.empty()) n = n + Mat3::diagonal(load_block(problem.compliance, block));
+  return n;
+}
+
+double diagonal_trace(const CcpProblem& problem, std::size_t block) {
+  const CcpContact& c = problem.contacts[block];
+  // trace(r^T J r) of a skew r is |arm|^2 trace(J) - arm . J arm, whatever the frame.
+  const auto rotational = [](const Mat3& j, const Vec3& arm) {
+    return squared_norm(arm) * (j.row0.x + j.row1.y + j.row2.z) - dot(arm, j * arm);
+  };
+  double trace = 3.0 * (problem.inverse_mass[c.a] + problem.inverse_mass[c.b]) +
+                 rotational(problem.inverse_inertia[c.a], c.arm_a) + rotational(problem.inverse_inertia[c.b], c.arm_b);
+  if (!problem.compliance.empty()) {
+    const Vec3 e = load_block(problem.compliance, block);
+    trace += e.x + e.y + e.z;
+  }
+  return trace;
+}
+
+}  // namespace scree

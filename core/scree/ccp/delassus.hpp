@@ -1,0 +1,77 @@
+// DelassusOperator: N = D^T M^-1 D + E of a CcpProblem, never formed.
+//
+// N g is two passes: w = M^-1 D g, body velocities that the impulses cause, then
+// D^T w + E g, contact velocities. Solvers that work with w (all the fast ones
+// do) call the halves themselves. Results have the same bits for any number of
+// threads.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scree/ccp/contact_partition.hpp"
+#include "scree/ccp/problem.hpp"
+#include "scree/ccp/twist.hpp"
+#include "scree/parallel/executor.hpp"
+
+namespace scree {
+
+/// Matrix-free Delassus operator. Refers to the problem that it was bound to;
+/// keeps its memory between problems.
+class DelassusOperator {
+ public:
+  /// Contacts or bodies per chunk of the loops below.
+  static constexpr std::size_t kGrain = ContactPartition::kRunLength;
+
+  /// `executor` may be null: everything runs on the calling thread.
+  void bind(const CcpProblem& problem, const Executor* executor);
+
+  [[nodiscard]] const CcpProblem& problem() const { return *problem_; }
+  [[nodiscard]] const ContactPartition& partition() const { return partition_; }
+
+  /// w = M^-1 D gamma [m/s, rad/s], one Twist per body.
+  void body_velocities(std::span<const double> gamma, std::span<Twist> w);
+  /// The last half of body_velocities(): w = M^-1 times the sums of each body's
+  /// slots [N s].
+  void reduce_slots(std::span<const Twist> slots, std::span<Twist> w) const;
+  /// out = D^T w + E gamma [m/s].
+  void contact_velocities(std::span<const Twist> w, std::span<const double> gamma, std::span<double> out) const;
+  /// out = N gamma [m/s].
+  void apply(std::span<const double> gamma, std::span<double> out);
+
+  /// 1/2 gamma^T N gamma + r^T gamma [J].
+  [[nodiscard]] double objective(std::span<const double> gamma);
+
+  /// Runs body(first, last) over chunks of `count` items, on the executor if
+  /// there is one.
+  template <class Body>
+  void for_chunks(std::size_t count, const Body& body) const {
+    if (executor_ != nullptr && executor_->threads() > 1) {
+      executor_->for_chunks(count, kGrain, body);
+      return;
+    }
+    for (std::size_t first = 0; first < count; first += kGrain) body(first, std::min(first + kGrain, count));
+  }
+
+ private:
+  const CcpProblem* problem_ = nullptr;
+  const Executor* executor_ = nullptr;
+  ContactPartition partition_;
+  std::vector<Twist> slots_;
+  std::vector<Twist> w_;
+  std::vector<double> partial_;
+};
+
+/// N_ii, the 3 x 3 diagonal block of a contact [1/kg]; symmetric positive
+/// semi-definite. Includes the compliance.
+[[nodiscard]] Mat3 diagonal_block(const CcpProblem& problem, std::size_t block);
+
+/// trace(N_ii) [1/kg], cheaper than the block.
+[[nodiscard]] double diagonal_trace(const CcpProblem& problem, std::size_t block);
+
+/// M^-1 of one body times an impulse and its moment.
+inline Twist apply_inverse_mass(const CcpProblem& problem, std::size_t body, const Twist& p) {
+  return {problem.inverse_mass[body] * p.linear, problem.inverse_inertia[body] * p.angular};
+}
+
+}  // namespace scree

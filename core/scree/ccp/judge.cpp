@@ -1,0 +1,50 @@
+#include "scree/ccp/judge.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "scree/base/require.hpp"
+#include "scree/ccp/cone3.hpp"
+
+namespace scree {
+
+double block_residual(const Vec3& g, const Vec3& u, double friction, double scale) {
+  return norm(g - project_cone3(g - scale * u, friction)) / scale;
+}
+
+double ccp_residual(const DelassusOperator& delassus, std::span<const double> gamma, std::span<const Twist> w,
+                    std::vector<double>& partial) {
+  const CcpProblem& problem = delassus.problem();
+  const bool compliant = !problem.compliance.empty();
+  partial.assign(Executor::chunk_count(problem.blocks(), DelassusOperator::kGrain), 0.0);
+  delassus.for_chunks(problem.blocks(), [&](std::size_t first, std::size_t last) {
+    double worst = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      const double trace = diagonal_trace(problem, i);
+      if (trace == 0.0) continue;  // two immovable bodies: no impulse changes anything
+      const CcpContact& c = problem.contacts[i];
+      const Vec3 g = load_block(gamma, i);
+      Vec3 u = relative_velocity(c, w[c.a], w[c.b]) + load_block(problem.r, i);
+      if (compliant) u += hadamard(load_block(problem.compliance, i), g);
+      const double error = block_residual(g, u, c.friction, 3.0 / trace);
+      if (!(error <= worst)) worst = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+    }
+    partial[first / DelassusOperator::kGrain] = worst;
+  });
+  return partial.empty() ? 0.0 : *std::max_element(partial.begin(), partial.end());
+}
+
+double CcpJudge::residual(const CcpProblem& problem, std::span<const double> gamma, const Executor* executor) {
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "CcpJudge: gamma needs three numbers a contact");
+  delassus_.bind(problem, executor);
+  w_.resize(problem.bodies());
+  delassus_.body_velocities(gamma, w_);
+  return ccp_residual(delassus_, gamma, w_, partial_);
+}
+
+double ccp_residual(const CcpProblem& problem, std::span<const double> gamma, const Executor* executor) {
+  CcpJudge judge;
+  return judge.residual(problem, gamma, executor);
+}
+
+}  // namespace scree

@@ -1,0 +1,102 @@
+// Cone complementarity problems for tests: random feasible ones and closed forms.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "scree/ccp/problem.hpp"
+#include "scree/ccp/twist.hpp"
+#include "scree/collision/contact.hpp"
+
+namespace scree {
+
+/// Owns what a CcpProblem refers to.
+struct TestingProblem {
+  std::vector<double> inverse_mass;
+  std::vector<Mat3> inverse_inertia;
+  std::vector<CcpContact> contacts;
+  std::vector<double> r;
+  std::vector<double> compliance;
+
+  [[nodiscard]] CcpProblem view() const { return {inverse_mass, inverse_inertia, contacts, r, compliance}; }
+
+  /// Adds a body; returns its index.
+  std::uint32_t add_body(double mass, const Vec3& inertia) {
+    inverse_mass.push_back(1.0 / mass);
+    inverse_inertia.push_back(Mat3::diagonal({1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z}));
+    return static_cast<std::uint32_t>(inverse_mass.size() - 1);
+  }
+  std::uint32_t add_immovable() {
+    inverse_mass.push_back(0.0);
+    inverse_inertia.push_back({});
+    return static_cast<std::uint32_t>(inverse_mass.size() - 1);
+  }
+  /// Adds a contact with row constants `velocity` (normal, tangent 1, tangent 2).
+  void add_contact(std::uint32_t a, std::uint32_t b, const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b,
+                   double friction, const Vec3& velocity) {
+    const ContactFrame frame = contact_frame(normal);
+    contacts.push_back({frame.normal, frame.tangent1, arm_a, arm_b, friction, a, b});
+    r.insert(r.end(), {velocity.x, velocity.y, velocity.z});
+  }
+};
+
+/// A sphere (body 1) on the floor (body 0); r = `velocity` in the contact frame.
+inline TestingProblem sphere_on_floor(double mass, double radius, double friction, const Vec3& velocity) {
+  TestingProblem t;
+  const std::uint32_t floor = t.add_immovable();
+  const double j = 0.4 * mass * radius * radius;
+  const std::uint32_t sphere = t.add_body(mass, {j, j, j});
+  t.add_contact(floor, sphere, {0, 0, 1}, {}, {0, 0, -radius}, friction, velocity);
+  return t;
+}
+
+/// What random_problem() draws.
+struct RandomProblem {
+  std::size_t bodies = 10;
+  std::size_t immovable = 1;
+  std::size_t contacts = 20;
+  bool compliant = false;
+  double mass_decades = 1.0;  ///< masses between 1 and 10^this
+  std::uint64_t seed = 1;
+};
+
+/// Random contacts between random bodies. Feasible: r = D^T v + s with s in K*,
+/// so that the velocity -v satisfies all contacts.
+inline TestingProblem random_problem(const RandomProblem& what) {
+  std::mt19937_64 random{what.seed};
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform{0.0, 1.0};
+  TestingProblem t;
+  for (std::size_t k = 0; k < what.immovable; ++k) t.add_immovable();
+  for (std::size_t k = 0; k < what.bodies; ++k) {
+    const double m = std::pow(10.0, what.mass_decades * uniform(random));
+    t.add_body(m, {0.1 * m * (1.0 + uniform(random)), 0.1 * m * (1.0 + uniform(random)), 0.15 * m});
+  }
+  std::vector<Twist> velocity(what.immovable + what.bodies);
+  for (std::size_t k = what.immovable; k < velocity.size(); ++k) {
+    velocity[k] = {{normal(random), normal(random), normal(random)}, {normal(random), normal(random), normal(random)}};
+  }
+  const auto direction = [&] { return normalized(Vec3{normal(random), normal(random), normal(random)}); };
+  while (t.contacts.size() < what.contacts) {
+    auto a = static_cast<std::uint32_t>(uniform(random) * static_cast<double>(velocity.size()));
+    auto b = static_cast<std::uint32_t>(uniform(random) * static_cast<double>(velocity.size()));
+    if (a == b || std::max(a, b) < what.immovable) continue;
+    if (a > b) std::swap(a, b);
+    const double mu = uniform(random) < 0.2 ? 0.0 : uniform(random);
+    const double arm = 0.5;
+    t.add_contact(a, b, direction(), a < what.immovable ? Vec3{} : arm * direction(), arm * direction(), mu, {});
+    const Vec3 u = relative_velocity(t.contacts.back(), velocity[a], velocity[b]);
+    const Vec3 slip{0.0, 0.3 * normal(random), 0.3 * normal(random)};
+    const Vec3 slack{mu * norm(slip) + (uniform(random) < 0.5 ? 0.0 : uniform(random)), slip.y, slip.z};
+    store_block(t.r, t.contacts.size() - 1, u + slack);
+  }
+  if (what.compliant) {
+    for (std::size_t i = 0; i < 3 * what.contacts; ++i)
+      t.compliance.push_back(i % 3 == 0 ? 0.1 * uniform(random) : 0.0);
+  }
+  return t;
+}
+
+}  // namespace scree

@@ -1,0 +1,60 @@
+// Kernels of one contact: what D^T does to two body velocities, and what D does
+// to one impulse. Inlined into every loop over contacts.
+#pragma once
+
+#include "scree/ccp/problem.hpp"
+
+namespace scree {
+
+/// Six contiguous doubles of one body: a velocity, or the impulse and its moment
+/// that change it.
+struct Twist {
+  Vec3 linear;   ///< of the centre of mass [m/s], or impulse [N s], world
+  Vec3 angular;  ///< [rad/s], or moment about the centre of mass [N m s], world
+
+  constexpr Twist& operator+=(const Twist& o) {
+    linear += o.linear;
+    angular += o.angular;
+    return *this;
+  }
+  constexpr bool operator==(const Twist&) const = default;
+};
+
+/// A world vector in the frame of a contact: normal, tangent 1, tangent 2.
+constexpr Vec3 in_frame(const CcpContact& c, const Vec3& v) {
+  return {dot(c.normal, v), dot(c.tangent1, v), dot(cross(c.normal, c.tangent1), v)};
+}
+
+/// A vector of the contact's frame, in the world.
+constexpr Vec3 in_world(const CcpContact& c, const Vec3& g) {
+  return g.x * c.normal + g.y * c.tangent1 + g.z * cross(c.normal, c.tangent1);
+}
+
+/// D_i^T w: velocity of b's surface relative to a's at the contact [m/s], in its
+/// frame, for the velocities `a` and `b` of its bodies.
+constexpr Vec3 relative_velocity(const CcpContact& c, const Twist& a, const Twist& b) {
+  const Vec3 u = (b.linear + cross(b.angular, c.arm_b)) - (a.linear + cross(a.angular, c.arm_a));
+  return in_frame(c, u);
+}
+
+/// D_i g: adds an impulse `g` of the contact's frame [N s] to b, its opposite to
+/// a.
+constexpr void add_impulse(const CcpContact& c, const Vec3& g, Twist& a, Twist& b) {
+  const Vec3 p = in_world(c, g);
+  a.linear -= p;
+  a.angular -= cross(c.arm_a, p);
+  b.linear += p;
+  b.angular += cross(c.arm_b, p);
+}
+
+/// Row block i of a flat array of rows.
+inline Vec3 load_block(std::span<const double> rows, std::size_t i) {
+  return {rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]};
+}
+inline void store_block(std::span<double> rows, std::size_t i, const Vec3& g) {
+  rows[3 * i] = g.x;
+  rows[3 * i + 1] = g.y;
+  rows[3 * i + 2] = g.z;
+}
+
+}  // namespace scree
