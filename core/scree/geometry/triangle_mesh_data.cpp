@@ -1,8 +1,8 @@
 #include "scree/geometry/triangle_mesh_data.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numbers>
+#include <unordered_map>
 #include <utility>
 
 #include "scree/base/require.hpp"
@@ -43,6 +43,16 @@ std::size_t count_edges(const TriangleMesh& mesh, MeshReport& report) {
   }
   return edges;
 }
+
+using Cell = std::array<std::int64_t, 3>;
+
+struct CellHash {
+  std::size_t operator()(const Cell& c) const {
+    std::uint64_t hash = 0;
+    for (const std::int64_t part : c) hash = (hash ^ static_cast<std::uint64_t>(part)) * 0x9e3779b97f4a7c15u;
+    return hash;
+  }
+};
 
 std::size_t count_used_vertices(const TriangleMesh& mesh) {
   std::vector<bool> used(mesh.vertices.size(), false);
@@ -101,22 +111,33 @@ TriangleMesh turned_inside_out(TriangleMesh mesh) {
 
 TriangleMesh welded(const TriangleMesh& mesh, double distance) {
   SCREE_REQUIRE(distance >= 0.0, "welded(): the distance must not be negative");
-  // Sorted along x, each vertex looks back only as far as the distance: O(n log n) for meshes that are not slabs in x.
-  std::vector<std::uint32_t> order(mesh.vertices.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return mesh.vertices[i].x; });
+  const Aabb box = bounds_of(mesh.vertices);
+  const double edge = std::max(2.0 * distance, 1e-9 * norm(box.upper - box.lower));
+  const auto cell_of = [&](const Vec3& v) {
+    const Vec3 scaled = (v - box.lower) / (edge > 0.0 ? edge : 1.0);
+    return Cell{std::llround(scaled.x), std::llround(scaled.y), std::llround(scaled.z)};
+  };
 
+  // The first of the vertices that lie together stands for all of them; it is found in its cell or in one beside it.
   TriangleMesh result;
-  std::vector<std::uint32_t> new_index(mesh.vertices.size());
-  for (const std::uint32_t i : order) {
-    const Vec3& v = mesh.vertices[i];
-    std::size_t match = result.vertices.size();
-    for (std::size_t k = result.vertices.size(); k-- > 0 && v.x - result.vertices[k].x <= distance;) {
-      const Vec3 d = v - result.vertices[k];
-      if (std::abs(d.y) <= distance && std::abs(d.z) <= distance) match = k;
+  std::unordered_multimap<Cell, std::uint32_t, CellHash> cells;
+  std::vector<std::uint32_t> new_index;
+  for (const Vec3& v : mesh.vertices) {
+    const Cell cell = cell_of(v);
+    auto match = static_cast<std::uint32_t>(result.vertices.size());
+    for (int k = 0; k < 27; ++k) {
+      const auto [begin, end] = cells.equal_range({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
+      for (auto it = begin; it != end; ++it) {
+        const Vec3 d = v - result.vertices[it->second];
+        const double furthest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+        if (furthest <= distance) match = std::min(match, it->second);
+      }
     }
-    if (match == result.vertices.size()) result.vertices.push_back(v);
-    new_index[i] = static_cast<std::uint32_t>(match);
+    if (match == result.vertices.size()) {
+      result.vertices.push_back(v);
+      cells.emplace(cell, match);
+    }
+    new_index.push_back(match);
   }
   for (const Triangle& t : mesh.triangles) {
     const Triangle n{new_index[t[0]], new_index[t[1]], new_index[t[2]]};
