@@ -1,10 +1,11 @@
-// BuildFingerprint: what must agree between the host and a plugin for C++
-// objects to pass between them.
+// BuildFingerprint: what must agree between the host and a plugin for C++ objects to pass between them.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "scree/interfaces/boundary_layout.hpp"
 
 namespace scree {
 
@@ -18,14 +19,17 @@ struct BuildFingerprint {
   std::uint32_t pointer_size;    ///< [byte]
   std::uint32_t string_size;     ///< sizeof(std::string) [byte]
   std::uint32_t vector_size;     ///< sizeof(std::vector<double>) [byte]
+  std::uint64_t layout;          ///< boundary_layout()
 };
 
 /// The fingerprint of the code being compiled.
 constexpr BuildFingerprint build_fingerprint() {
+#define SCREE_TEXT_OF(number) #number
+#define SCREE_TEXT(number) SCREE_TEXT_OF(number)
 #if defined(__clang__)
-#define SCREE_COMPILER "clang"
+#define SCREE_COMPILER "clang " SCREE_TEXT(__clang_major__)
 #else
-#define SCREE_COMPILER "gcc"
+#define SCREE_COMPILER "gcc " SCREE_TEXT(__GNUC__)
 #endif
   return {SCREE_COMPILER,
           __GXX_ABI_VERSION,
@@ -38,8 +42,11 @@ constexpr BuildFingerprint build_fingerprint() {
 #endif
           sizeof(void*),
           sizeof(std::string),
-          sizeof(std::vector<double>)};
+          sizeof(std::vector<double>),
+          boundary_layout()};
 #undef SCREE_COMPILER
+#undef SCREE_TEXT
+#undef SCREE_TEXT_OF
 }
 
 }  // namespace scree

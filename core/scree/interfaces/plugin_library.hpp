@@ -1,22 +1,22 @@
-// What a plugin library exports: one symbol, constant data, which the host
-// reads before it calls anything.
+// What a plugin library exports: one symbol, constant data, which the host reads before it calls anything.
 //
 //     namespace {
 //     void list(scree::PluginList& plugins) {
-//       plugins.add<scree::ForceField, Wind>("wind", "A uniform push.",
-//                                            {scree::Parameter::vector("push",
-//                                            "m/s2", "acceleration of all
-//                                            bodies")});
+//       plugins.add<scree::ForceField, Wind>(
+//           "wind", "A uniform push.", {scree::Parameter::vector("push", "m/s2", "acceleration of all bodies")});
 //     }
 //     }  // namespace
-//     extern "C" SCREE_EXPORT const scree::PluginLibrary
-//     scree_plugin_library{scree::describe_library("wind", "1.0.0", &list)};
+//     extern "C" SCREE_EXPORT const scree::PluginLibrary scree_plugin_library{
+//         scree::describe_library("wind", "1.0.0", &list)};
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "scree/config/options.hpp"
@@ -88,8 +88,7 @@ constexpr PluginLibrary describe_library(const char* name, const char* version, 
 class PluginCatalog {
  public:
   virtual ~PluginCatalog();
-  /// The entry, or an Error (usage) at `where` that lists what exists, a
-  /// suggestion and the folders searched.
+  /// The entry, or an Error (usage) at `where` that lists what exists, a suggestion and the folders searched.
   [[nodiscard]] virtual const PluginEntry& entry(std::string_view kind, std::string_view name,
                                                  const SourceLocation& where) const = 0;
   /// All entries, by kind, then name.
