@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/plugin_file.hpp"
+#include "scree/host/plugin_file.hpp"
 
 namespace scree {
 

@@ -1,4 +1,4 @@
-#include "host/fingerprint_text.hpp"
+#include "scree/host/fingerprint_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // Every way in which a plugin file can be wrong, against the sentence that the user gets. The files are built from
 // tests/fixtures/plugins.
-#include "host/plugin_host.hpp"
+#include "scree/host/plugin_host.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "host/search_path.hpp"
+#include "scree/host/search_path.hpp"
 #include "scree/interfaces/force_field.hpp"
 
 namespace scree {
@@ -73,7 +73,7 @@ TEST(plugin_file, refuses_a_missing_file) { EXPECT_EQ(refusal_of(fixture("nowher
 
 TEST(plugin_file, refuses_a_text_file) {
   EXPECT_EQ(refusal_of(fixture("text")),
-            "this is not a shared library that can be loaded (file too short); build plugins with scree_add_plugin()");
+            "this is not a shared library that can be loaded (invalid ELF header); build plugins with scree_add_plugin()");
 }
 
 TEST(plugin_file, refuses_a_library_without_the_symbol) {

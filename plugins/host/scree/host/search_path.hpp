@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/plugin_host.hpp"
+#include "scree/host/plugin_host.hpp"
 
 namespace scree {
 

@@ -1,4 +1,4 @@
-#include "host/plugin_host.hpp"
+#include "scree/host/plugin_host.hpp"
 
 #include <algorithm>
 

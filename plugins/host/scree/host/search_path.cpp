@@ -1,4 +1,4 @@
-#include "host/search_path.hpp"
+#include "scree/host/search_path.hpp"
 
 #include <dlfcn.h>
 

@@ -1,4 +1,4 @@
-#include "host/plugin_file.hpp"
+#include "scree/host/plugin_file.hpp"
 
 #include <cxxabi.h>
 #include <dlfcn.h>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "host/fingerprint_text.hpp"
+#include "scree/host/fingerprint_text.hpp"
 
 namespace scree {
 namespace {
