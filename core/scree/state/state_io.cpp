@@ -1,24 +1,28 @@
 #include "scree/state/state_io.hpp"
 
-#include <cstddef>
-
 #include "scree/base/error.hpp"
 
 namespace scree {
+
 namespace {
 
-/// Vec3 and Quat are plain aggregates of doubles, so a span of them is a span of doubles.
-template <class T>
-std::span<const double> as_doubles(std::span<const T> values) {
-  static_assert(sizeof(T) % sizeof(double) == 0 && alignof(T) == alignof(double));
-  return {reinterpret_cast<const double*>(values.data()), values.size() * (sizeof(T) / sizeof(double))};
+// Vectors and quaternions are stored as their components, one after another.
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Quat) == 4 * sizeof(double));
+
+template <class Record>
+std::span<const double> components(std::span<const Record> values) {
+  return {reinterpret_cast<const double*>(values.data()), values.size() * (sizeof(Record) / sizeof(double))};
 }
 
-template <class T>
-T only_value(const std::vector<T>& values, std::string_view name) {
-  if (values.size() == 1) return values.front();
-  throw Error{ErrorKind::io, "the checkpoint holds " + std::to_string(values.size()) + " values of '" +
-                                 std::string{name} + "' where one belongs; it is damaged or of another scree"};
+[[noreturn]] void wrong_count(std::string_view name, std::size_t count, const char* expected) {
+  throw Error{ErrorKind::io, "the checkpoint holds " + std::to_string(count) + " numbers under \"" + std::string{name} +
+                                 "\", but " + expected + " expected."};
+}
+
+template <class Value>
+Value single(std::string_view name, const std::vector<Value>& values) {
+  if (values.size() != 1) wrong_count(name, values.size(), "one is");
+  return values.front();
 }
 
 }  // namespace
@@ -26,8 +30,8 @@ T only_value(const std::vector<T>& values, std::string_view name) {
 StateWriter::~StateWriter() = default;
 StateReader::~StateReader() = default;
 
-void StateWriter::write(std::string_view name, std::span<const Vec3> values) { write(name, as_doubles(values)); }
-void StateWriter::write(std::string_view name, std::span<const Quat> values) { write(name, as_doubles(values)); }
+void StateWriter::write(std::string_view name, std::span<const Vec3> values) { write(name, components(values)); }
+void StateWriter::write(std::string_view name, std::span<const Quat> values) { write(name, components(values)); }
 void StateWriter::write(std::string_view name, double value) { write(name, std::span<const double>{&value, 1}); }
 void StateWriter::write(std::string_view name, std::uint64_t value) {
   write(name, std::span<const std::uint64_t>{&value, 1});
@@ -35,6 +39,7 @@ void StateWriter::write(std::string_view name, std::uint64_t value) {
 
 std::vector<Vec3> StateReader::vectors(std::string_view name) const {
   const std::vector<double> flat = doubles(name);
+  if (flat.size() % 3 != 0) wrong_count(name, flat.size(), "a multiple of three is");
   std::vector<Vec3> values(flat.size() / 3);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]};
   return values;
@@ -42,6 +47,7 @@ std::vector<Vec3> StateReader::vectors(std::string_view name) const {
 
 std::vector<Quat> StateReader::quaternions(std::string_view name) const {
   const std::vector<double> flat = doubles(name);
+  if (flat.size() % 4 != 0) wrong_count(name, flat.size(), "a multiple of four is");
   std::vector<Quat> values(flat.size() / 4);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = {flat[4 * i], flat[4 * i + 1], flat[4 * i + 2], flat[4 * i + 3]};
@@ -49,7 +55,7 @@ std::vector<Quat> StateReader::quaternions(std::string_view name) const {
   return values;
 }
 
-double StateReader::number(std::string_view name) const { return only_value(doubles(name), name); }
-std::uint64_t StateReader::integer(std::string_view name) const { return only_value(integers(name), name); }
+double StateReader::number(std::string_view name) const { return single(name, doubles(name)); }
+std::uint64_t StateReader::integer(std::string_view name) const { return single(name, integers(name)); }
 
 }  // namespace scree
