@@ -63,10 +63,10 @@ class Parameter {
   /// whose members all have defaults may be left out. The default of a variant is its shorthand's value or a `type`.
   /// @throws std::logic_error when the value is of another kind.
   Parameter by_default(Value value) &&;
-  Parameter by_default(double value) && { return std::move(*this).by_default(Value{value}); }
-  Parameter by_default(int value) && { return std::move(*this).by_default(Value{std::int64_t{value}}); }
-  Parameter by_default(bool value) && { return std::move(*this).by_default(Value{value}); }
-  Parameter by_default(const char* value) && { return std::move(*this).by_default(Value{std::string{value}}); }
+  Parameter by_default(double value) &&;
+  Parameter by_default(int value) &&;
+  Parameter by_default(bool value) &&;
+  Parameter by_default(const char* value) &&;
   /// The setting may be absent; Options::has() tells.
   Parameter optional() &&;
   /// Smallest and largest valid value, in the parameter's SI unit.
@@ -105,5 +105,13 @@ struct Variant {
   std::string help;
   std::vector<Parameter> members;
 };
+
+// Here, and not in the class: a Parameter is complete only once Variant is.
+inline Parameter Parameter::by_default(double value) && { return std::move(*this).by_default(Value{value}); }
+inline Parameter Parameter::by_default(int value) && { return std::move(*this).by_default(Value{std::int64_t{value}}); }
+inline Parameter Parameter::by_default(bool value) && { return std::move(*this).by_default(Value{value}); }
+inline Parameter Parameter::by_default(const char* value) && {
+  return std::move(*this).by_default(Value{std::string{value}});
+}
 
 }  // namespace scree

@@ -111,7 +111,7 @@ std::string valid_range(const Parameter& parameter) {
 }
 
 std::string example_line(const Parameter& parameter) {
-  const std::string head = parameter.name + " = ";
+  std::string head = parameter.name + " = ";
   switch (parameter.kind) {
     case ValueKind::boolean:
       return head + "true";

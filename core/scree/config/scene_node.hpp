@@ -48,7 +48,7 @@ struct SceneTable::Node {
   SceneKind kind = SceneKind::table;
   bool boolean = false;
   std::int64_t integer = 0;
-  double number = 0.0;
+  double number = 0.0;  ///< as written, [SI unit of the setting]
   std::string text;
   std::vector<Member> members;               ///< of a table, in the order written
   std::vector<std::shared_ptr<Node>> items;  ///< of a list

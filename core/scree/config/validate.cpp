@@ -39,7 +39,7 @@ std::vector<std::string> types_of(const Parameter& parameter) {
 
 // All members at their defaults, but `given` set: what a shorthand stands for.
 Options alternative_with(const Variant& alternative, const SceneNode& place, const std::string& what,
-                         const std::string& given_name, Options::Entry given) {
+                         const std::string& given_name, const Options::Entry& given) {
   Options result;
   result.set_type(alternative.type);
   result.set_location(place.where());
