@@ -8,10 +8,14 @@
 #include <random>
 
 #include "scree/ccp/judge.hpp"
-#include "testing_problem.hpp"
+#include "support/ccp_problems.hpp"
 
 namespace scree {
 namespace {
+
+using test::random_problem;
+using test::sphere_on_floor;
+using test::TestingProblem;
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;

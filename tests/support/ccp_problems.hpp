@@ -10,7 +10,7 @@
 #include "scree/ccp/twist.hpp"
 #include "scree/collision/contact.hpp"
 
-namespace scree {
+namespace scree::test {
 
 /// Owns what a CcpProblem refers to.
 struct TestingProblem {
@@ -99,4 +99,4 @@ inline TestingProblem random_problem(const RandomProblem& what) {
   return t;
 }
 
-}  // namespace scree
+}  // namespace scree::test

@@ -1,0 +1,43 @@
+#include "colouring.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace scree::pgs {
+
+void Colouring::build(const CcpProblem& problem) {
+  const std::size_t m = problem.blocks();
+  const std::size_t chunk_count = (m + kChunkLength - 1) / kChunkLength;
+  colours_of_body_.assign(problem.bodies(), 0);
+  colour_.resize(chunk_count);
+  std::uint32_t colours = 0;
+  const auto bodies_of = [&](std::size_t chunk, auto&& visit) {
+    for (std::size_t i = chunk * kChunkLength; i < std::min((chunk + 1) * kChunkLength, m); ++i) {
+      for (const std::uint32_t body : {problem.contacts[i].a, problem.contacts[i].b}) {
+        if (problem.inverse_mass[body] > 0.0) visit(body);
+      }
+    }
+  };
+  for (std::size_t chunk = 0; chunk < chunk_count; ++chunk) {
+    std::uint64_t taken = 0;
+    bodies_of(chunk, [&](std::uint32_t body) { taken |= colours_of_body_[body]; });
+    const auto colour = static_cast<std::uint32_t>(std::countr_one(taken));
+    colour_[chunk] = colour;
+    if (colour == kMaxColours) continue;
+    bodies_of(chunk, [&](std::uint32_t body) { colours_of_body_[body] |= std::uint64_t{1} << colour; });
+    colours = std::max(colours, colour + 1);
+  }
+
+  // Counting sort by colour; those without one come last.
+  first_.assign(colours + 1, 0);
+  cursor_.assign(kMaxColours + 2, 0);
+  for (const std::uint32_t colour : colour_) ++cursor_[colour + 1];
+  for (std::size_t c = 1; c < cursor_.size(); ++c) cursor_[c] += cursor_[c - 1];
+  for (std::size_t c = 0; c <= colours; ++c) first_[c] = cursor_[c];
+  chunks_.resize(chunk_count);
+  for (std::size_t chunk = 0; chunk < chunk_count; ++chunk) {
+    chunks_[cursor_[colour_[chunk]]++] = static_cast<std::uint32_t>(chunk);
+  }
+}
+
+}  // namespace scree::pgs

@@ -1,0 +1,51 @@
+// Block projected Gauss-Seidel for cone complementarity problems (Tasora &
+// Anitescu 2010, 2011): contact after contact, each with the velocities that the
+// ones before it left.
+#pragma once
+
+#include <vector>
+
+#include "colouring.hpp"
+#include "scree/ccp/delassus.hpp"
+#include "scree/config/options.hpp"
+#include "scree/interfaces/ccp_solver.hpp"
+#include "sweep.hpp"
+
+namespace scree {
+
+/// What a scene can say about pgs.
+struct PgsOptions {
+  double relaxation = 1.0;   ///< omega [1], in (0, 1.9]
+  bool scalar_step = false;  ///< one step length for all three rows of a contact
+  bool coloured = false;     ///< order by colours, for several threads
+  int check_interval = 10;   ///< sweeps between two computations of the residual
+};
+
+/// The objective falls with every update. No allocation once the workspace has
+/// its size.
+class Pgs final : public CcpSolver {
+ public:
+  explicit Pgs(const PgsOptions& options) : options_{options} {}
+  explicit Pgs(const Options& options);
+  static std::vector<Parameter> parameters();
+
+  SolveSummary solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) override;
+
+ private:
+  bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
+  void sweep(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
+  template <bool compliant>
+  void sweep_range(const CcpProblem& problem, std::size_t first, std::size_t last, std::span<double> gamma);
+  double residual(std::span<const double> gamma);
+
+  PgsOptions options_;
+  DelassusOperator delassus_;
+  pgs::Colouring colouring_;
+  std::vector<pgs::Body> bodies_;
+  std::vector<pgs::LocalStep> steps_;
+  std::vector<Twist> w_;
+  std::vector<double> partial_;
+  std::vector<double> guess_;
+};
+
+}  // namespace scree

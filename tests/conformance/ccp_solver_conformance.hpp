@@ -1,0 +1,206 @@
+// What every CcpSolver owes: the conformance suite of the interface.
+//
+// A solver's test instantiates it with ways to make the solver:
+//
+//     INSTANTIATE_TEST_SUITE_P(pgs, CcpSolverConformance, testing::Values(
+//         SolverCase{"serial", [] { return std::make_unique<Pgs>(PgsOptions{}); }}), solver_case_name);
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scree/ccp/cone3.hpp"
+#include "scree/ccp/judge.hpp"
+#include "scree/interfaces/ccp_solver.hpp"
+#include "scree/parallel/executor.hpp"
+#include "support/ccp_problems.hpp"
+
+namespace scree::test {
+
+/// One way to make a solver.
+struct SolverCase {
+  std::string name;
+  std::function<std::unique_ptr<CcpSolver>()> make;
+};
+
+inline std::string solver_case_name(const testing::TestParamInfo<SolverCase>& info) { return info.param.name; }
+
+/// Solves to `tolerance` [m/s] from a zero guess.
+struct Solved {
+  std::vector<double> gamma;
+  SolveSummary summary;
+};
+inline Solved solve(CcpSolver& solver, const CcpProblem& problem, double tolerance, int max_iterations = 200000,
+                    const Executor* executor = nullptr) {
+  Solved out{std::vector<double>(problem.rows(), 0.0), {}};
+  SolveContext context;
+  context.tolerance = tolerance;
+  context.max_iterations = max_iterations;
+  context.executor = executor;
+  out.summary = solver.solve(problem, context, out.gamma);
+  return out;
+}
+
+inline double objective_of(const CcpProblem& problem, std::span<const double> gamma) {
+  DelassusOperator delassus;
+  delassus.bind(problem, nullptr);
+  return delassus.objective(gamma);
+}
+
+class CcpSolverConformance : public testing::TestWithParam<SolverCase> {
+ protected:
+  std::unique_ptr<CcpSolver> solver_ = GetParam().make();
+};
+
+// gamma in K, u = N gamma + r in K*, gamma . u = 0, straight from the definitions (KKT).
+inline void expect_solution(const CcpProblem& p, const std::vector<double>& gamma, double tolerance) {
+  DelassusOperator delassus;
+  delassus.bind(p, nullptr);
+  std::vector<double> u(p.rows());
+  delassus.apply(gamma, u);
+  for (std::size_t i = 0; i < p.blocks(); ++i) {
+    const double mu = p.contacts[i].friction;
+    const Vec3 g = load_block(gamma, i), v = load_block(u, i) + load_block(p.r, i);
+    const double scale = 3.0 / diagonal_trace(p, i);
+    EXPECT_GE(mu * g.x - std::hypot(g.y, g.z), -1e-13 * norm(g)) << "impulse " << i << " outside its cone";
+    // The residual bounds the distance of u from K* and, times the impulse or the velocity, the complementarity gap.
+    EXPECT_GE(v.x - mu * std::hypot(v.y, v.z), -4.0 * tolerance * (1.0 + mu)) << "velocity " << i;
+    EXPECT_NEAR(dot(g, v), 0.0, 4.0 * tolerance * (norm(g) + scale * norm(v))) << "complementarity " << i;
+  }
+}
+
+TEST_P(CcpSolverConformance, empty_problem_is_solved) {
+  const Solved s = solve(*solver_, CcpProblem{}, 1e-3);
+  EXPECT_EQ(s.summary.status, SolveStatus::converged);
+  EXPECT_EQ(s.summary.residual, 0.0);
+}
+
+TEST_P(CcpSolverConformance, sphere_on_floor_stops_without_friction_left_over) {
+  const TestingProblem t = sphere_on_floor(0.3, 0.1, 0.5, {-2.0, 0.0, 0.0});
+  const Solved s = solve(*solver_, t.view(), 1e-12);
+  EXPECT_EQ(s.summary.status, SolveStatus::converged);
+  EXPECT_NEAR(s.gamma[0], 0.6, 1e-12);
+  EXPECT_NEAR(s.gamma[1], 0.0, 1e-12);
+}
+
+// Slides: the associated problem leaves u in the dual cone's surface, u_n = mu |u_t|, and the impulse on the cone's
+// surface, against the velocity. With n and t uncoupled, the KKT conditions give g_n (1/m + 3.5 mu^2/m) = v - mu w.
+TEST_P(CcpSolverConformance, sliding_sphere_meets_the_closed_form_of_the_associated_problem) {
+  const double m = 0.3, mu = 0.2, v = 1.0, w = 4.0;
+  const TestingProblem t = sphere_on_floor(m, 0.1, mu, {-v, w, 0.0});
+  const Solved s = solve(*solver_, t.view(), 1e-12);
+  const double n = m * (v + mu * w) / (1.0 + 3.5 * mu * mu);
+  EXPECT_NEAR(s.gamma[0], n, 1e-11);
+  EXPECT_NEAR(s.gamma[1], -mu * n, 1e-11);
+  EXPECT_NEAR(s.gamma[2], 0.0, 1e-11);
+}
+
+// A cylinder-like sphere in a V of two walls at +-45 degrees: each wall carries W h / sqrt 2 when it is frictionless.
+TEST_P(CcpSolverConformance, wedge_without_friction_shares_the_weight) {
+  const double m = 2.0, v = 9.81e-3, s = std::sqrt(0.5);
+  TestingProblem t;
+  const auto left = t.add_immovable(), right = t.add_immovable(), ball = t.add_body(m, {1, 1, 1});
+  t.add_contact(left, ball, {s, 0, s}, {}, 0.5 * Vec3{-s, 0, -s}, 0.0, {-v * s, 0, 0});
+  t.add_contact(right, ball, {-s, 0, s}, {}, 0.5 * Vec3{s, 0, -s}, 0.0, {-v * s, 0, 0});
+  const Solved out = solve(*solver_, t.view(), 1e-12);
+  EXPECT_EQ(out.summary.status, SolveStatus::converged);
+  EXPECT_NEAR(out.gamma[0], m * v * s, 1e-11);
+  EXPECT_NEAR(out.gamma[3], m * v * s, 1e-11);
+}
+
+TEST_P(CcpSolverConformance, wedge_with_friction_meets_its_optimality_conditions) {
+  const double s = std::sqrt(0.5);
+  TestingProblem t;
+  const auto left = t.add_immovable(), right = t.add_immovable(), ball = t.add_body(2.0, {0.3, 0.4, 0.5});
+  t.add_contact(left, ball, {s, 0, s}, {}, {-0.3, 0.1, -0.4}, 0.4, {-1.0, 0.7, 0.2});
+  t.add_contact(right, ball, {-s, 0, s}, {}, {0.3, 0.0, -0.2}, 0.8, {-0.4, -0.5, 0.1});
+  const Solved out = solve(*solver_, t.view(), 1e-11);
+  EXPECT_EQ(out.summary.status, SolveStatus::converged);
+  expect_solution(t.view(), out.gamma, 1e-11);
+}
+
+TEST_P(CcpSolverConformance, random_feasible_problems_converge_to_their_optimality_conditions) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const TestingProblem t = random_problem({.bodies = 8, .contacts = 14, .compliant = seed % 3 == 0, .seed = seed});
+    const Solved s = solve(*solver_, t.view(), 1e-9);
+    EXPECT_EQ(s.summary.status, SolveStatus::converged) << "seed " << seed << ", residual " << s.summary.residual;
+    expect_solution(t.view(), s.gamma, 1e-9);
+  }
+}
+
+TEST_P(CcpSolverConformance, summary_tells_the_residual_of_the_answer) {
+  const TestingProblem t = random_problem({.bodies = 50, .contacts = 150, .mass_decades = 3.0, .seed = 5});
+  for (const int limit : {1, 7, 50}) {
+    const Solved s = solve(*solver_, t.view(), 1e-15, limit);
+    EXPECT_EQ(s.summary.status, SolveStatus::iteration_limit);
+    EXPECT_EQ(s.summary.iterations, limit);
+    // Two sums of the same terms in different order.
+    EXPECT_NEAR(s.summary.residual, ccp_residual(t.view(), s.gamma), 1e-12);
+  }
+}
+
+TEST_P(CcpSolverConformance, objective_is_never_above_that_of_the_projected_guess) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const TestingProblem t = random_problem({.bodies = 30, .contacts = 90, .mass_decades = 4.0, .seed = seed});
+    const CcpProblem p = t.view();
+    std::mt19937_64 random{seed};
+    std::normal_distribution<double> normal;
+    std::vector<double> guess(p.rows());
+    for (double& g : guess) g = 10.0 * normal(random);
+    std::vector<double> projected = guess;
+    for (std::size_t i = 0; i < p.blocks(); ++i) {
+      store_block(projected, i, project_cone3(load_block(guess, i), p.contacts[i].friction));
+    }
+    const double start = objective_of(p, projected);
+    for (const int limit : {1, 2, 3, 10}) {
+      std::vector<double> gamma = guess;
+      SolveContext context;
+      context.tolerance = 0.0;
+      context.max_iterations = limit;
+      solver_->solve(p, context, gamma);
+      EXPECT_LE(objective_of(p, gamma), start + 1e-12 * std::abs(start)) << "seed " << seed << " limit " << limit;
+    }
+  }
+}
+
+TEST_P(CcpSolverConformance, numbers_that_are_not_finite_are_reported_and_never_returned) {
+  TestingProblem t = random_problem({.bodies = 8, .contacts = 14, .seed = 2});
+  std::vector<double> gamma(t.view().rows(), std::nan(""));
+  SolveContext context;
+  EXPECT_NE(solver_->solve(t.view(), context, gamma).status, SolveStatus::numerical_failure);
+  for (const double g : gamma) EXPECT_TRUE(std::isfinite(g));
+  t.r[4] = std::nan("");
+  EXPECT_EQ(solver_->solve(t.view(), context, gamma).status, SolveStatus::numerical_failure);
+  for (const double g : gamma) EXPECT_TRUE(std::isfinite(g));
+}
+
+TEST_P(CcpSolverConformance, two_threads_give_the_bits_of_one) {
+  const TestingProblem t = random_problem({.bodies = 3000, .immovable = 3, .contacts = 9000, .seed = 9});
+  const Executor one{1}, two{2};
+  const Solved a = solve(*solver_, t.view(), 1e-9, 20, &one);
+  const Solved b = solve(*GetParam().make(), t.view(), 1e-9, 20, &two);
+  EXPECT_EQ(a.gamma, b.gamma);
+  EXPECT_EQ(a.summary.residual, b.summary.residual);
+}
+
+TEST_P(CcpSolverConformance, workspace_of_another_problem_does_not_show) {
+  const TestingProblem t = random_problem({.bodies = 8, .contacts = 14, .seed = 3});
+  const Solved fresh = solve(*GetParam().make(), t.view(), 1e-9, 50);
+  solve(*solver_, random_problem({.bodies = 100, .contacts = 300, .compliant = true, .seed = 4}).view(), 1e-9, 50);
+  const Solved again = solve(*solver_, t.view(), 1e-9, 50);
+  EXPECT_EQ(fresh.gamma, again.gamma);
+}
+
+TEST_P(CcpSolverConformance, a_solved_problem_needs_no_iteration) {
+  const TestingProblem t = random_problem({.bodies = 8, .contacts = 14, .seed = 6});
+  Solved s = solve(*solver_, t.view(), 1e-8);
+  SolveContext context;
+  context.tolerance = 1.01 * s.summary.residual + 1e-14;
+  EXPECT_EQ(solver_->solve(t.view(), context, s.gamma).iterations, 0);
+}
+
+}  // namespace scree::test
