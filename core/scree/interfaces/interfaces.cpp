@@ -38,6 +38,8 @@ void Observer::setup(SceneServices&, const std::filesystem::path&) {}
 void Observer::finish(const Observation&) {}
 std::vector<ReportTable> Observer::report() const { return {}; }
 
+std::string SceneServices::part_name() const { return {}; }
+
 Sink::~Sink() = default;
 void Sink::setup(SceneServices&) {}
 

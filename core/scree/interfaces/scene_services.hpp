@@ -27,6 +27,10 @@ class SceneServices {
  public:
   virtual ~SceneServices();
 
+  /// The name of the part being set up: the scene's `name`, else its type; empty for services that know none. For
+  /// names of files and columns.
+  [[nodiscard]] virtual std::string part_name() const;
+
   /// An electric field of the scene by name. @throws Error (usage) naming those
   /// that exist.
   [[nodiscard]] virtual const ElectricField& electric_field(std::string_view name) const = 0;
