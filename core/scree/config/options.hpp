@@ -90,7 +90,8 @@ struct Options::Entry {
   std::filesystem::path base;   ///< folder that a path is relative to
   SourceLocation where;
   bool given = true;
-  bool present = true;  ///< false for a described setting without a value
+  bool is_list = false;  ///< of tables or variants
+  bool present = true;   ///< false for a described setting without a value
 };
 
 }  // namespace scree

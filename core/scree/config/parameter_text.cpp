@@ -17,7 +17,10 @@ std::string number_text(double value) {
   return text;
 }
 
-std::string in_unit(const Parameter& parameter) { return parameter.unit == "1" ? "" : " in " + parameter.unit; }
+std::string in_unit(const Parameter& parameter) {
+  if (parameter.unit == kAnyUnit) return " in SI units";
+  return parameter.unit == "1" ? "" : " in " + parameter.unit;
+}
 
 std::vector<std::string> types_of(const Parameter& parameter) {
   std::vector<std::string> types;
@@ -149,7 +152,7 @@ std::string example_line(const Parameter& parameter) {
 
 std::string quantity_text(double value, std::string_view unit) {
   std::string text = fmt::format("{}", value);
-  if (unit != "1" && !unit.empty()) text += " " + std::string{unit};
+  if (unit != "1" && unit != kAnyUnit && !unit.empty()) text += " " + std::string{unit};
   return text;
 }
 

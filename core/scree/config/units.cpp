@@ -104,13 +104,32 @@ Unit parse_unit(std::string_view text) {
   return Unit{ut_parse(unit_system(), readable->c_str(), UT_UTF8)};
 }
 
-// UDUNITS converts radians into pure numbers and so Hz into rad/s: whether an angle is left over shows in the ratio.
+ut_status keep_unit(const ut_unit* unit, void* result) {
+  *static_cast<Unit*>(result) = Unit{ut_clone(unit)};
+  return UT_SUCCESS;
+}
+ut_status keep_product(const ut_unit* unit, int, const ut_unit* const*, const int*, void* result) {
+  return keep_unit(unit, result);
+}
+ut_status keep_scaled(const ut_unit*, double, const ut_unit* underlying, double, void* result) {
+  return keep_unit(underlying, result);
+}
+ut_status refuse_timestamp(const ut_unit*, const ut_unit*, double, void*) { return UT_NOT_SAME_SYSTEM; }
+ut_status refuse_logarithm(const ut_unit*, double, const ut_unit*, void*) { return UT_NOT_SAME_SYSTEM; }
+
+// The SI unit of the same dimension, without factor and offset: "m" for "mm", "s-1.rad" for "rpm"; null for dates.
+Unit coherent(const ut_unit* unit) {
+  static constexpr ut_visitor kVisitor{keep_unit, keep_product, keep_scaled, refuse_timestamp, refuse_logarithm};
+  Unit result;
+  if (ut_accept_visitor(unit, &kVisitor, &result) != UT_SUCCESS) return {};
+  return result;
+}
+
+// UDUNITS takes radians for pure numbers and so converts Hz into rad/s; in the SI unit an angle shows.
 bool same_dimension(const ut_unit* from, const ut_unit* to) {
-  if (ut_are_convertible(from, to) == 0) return false;
-  const Unit ratio{ut_divide(from, to)};
-  std::array<char, 512> text{};
-  if (!ratio || ut_format(ratio.get(), text.data(), text.size() - 1, UT_ASCII | UT_DEFINITION) < 0) return true;
-  return std::string_view{text.data()}.find("rad") == std::string_view::npos;
+  const Unit a = coherent(from);
+  const Unit b = coherent(to);
+  return a && b && ut_compare(a.get(), b.get()) == 0;
 }
 
 // Multiplies by the factor, or divides by its inverse where that is a whole number: "0.7 mm" becomes the double next to
@@ -136,6 +155,7 @@ std::string_view trimmed(std::string_view text) {
 
 // "a length in m" has no name here: the SI unit names the dimension.
 std::string in_unit(std::string_view unit) {
+  if (unit == kAnyUnit) return "a quantity";
   return unit == "1" ? std::string{"a number without a dimension"} : "a quantity in " + std::string{unit};
 }
 
@@ -158,6 +178,7 @@ std::string quantity_example(std::string_view unit) {
                                                                                             {"1/s", "10000 1/s"},
                                                                                             {"kg/s", "36 kg/h"},
                                                                                             {"C/m2", "26 uC/m2"}}};
+  if (unit == kAnyUnit) return "2 nC";
   const auto* known = std::ranges::find(kExamples, unit, &std::pair<std::string_view, std::string_view>::first);
   return known == kExamples.end() ? "1.5 " + std::string{unit} : std::string{known->second};
 }
@@ -168,17 +189,18 @@ double parse_quantity(std::string_view text, std::string_view unit) {
   double value = 0.0;
   const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (failure == std::errc::result_out_of_range) refuse(whole, "is too large or too small for a number", unit);
-  if (failure != std::errc{} || digits.starts_with("+")) refuse(whole, "is not " + in_unit(unit), unit);
+  if (failure != std::errc{}) refuse(whole, "is not " + in_unit(unit), unit);
   if (!std::isfinite(value)) refuse(whole, "is not a finite number", unit);
   const std::string_view rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
-  if (rest.empty() && unit != "1") refuse(whole, "has no unit where " + in_unit(unit) + " is needed", unit);
+  if (rest.empty() && unit != "1" && unit != kAnyUnit)
+    refuse(whole, "has no unit where " + in_unit(unit) + " is needed", unit);
   if (rest.empty()) return value;
 
   const std::lock_guard lock{library_lock()};
   const Unit from = parse_unit(rest);
-  const Unit to = parse_unit(unit);
-  if (!to) throw std::logic_error{"a parameter was described with the unknown unit '" + std::string{unit} + "'"};
   if (!from) refuse(whole, "has the unknown unit '" + std::string{rest.substr(0, 80)} + "'", unit);
+  const Unit to = unit == kAnyUnit ? coherent(from.get()) : parse_unit(unit);
+  if (!to) throw std::logic_error{"a parameter was described with the unknown unit '" + std::string{unit} + "'"};
   if (!same_dimension(from.get(), to.get()))
     refuse(whole,
            "is in " + std::string{rest} + ", which cannot be converted to " +
@@ -191,6 +213,7 @@ double parse_quantity(std::string_view text, std::string_view unit) {
 }
 
 bool is_unit(std::string_view unit) {
+  if (unit == kAnyUnit) return true;
   const std::lock_guard lock{library_lock()};
   return parse_unit(unit) != nullptr;
 }

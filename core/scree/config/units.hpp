@@ -6,6 +6,10 @@
 
 namespace scree {
 
+/// As the unit of a description: any dimension; quantities become numbers of the SI unit of their own dimension. For
+/// values whose unit only the reader knows, such as body attributes.
+inline constexpr std::string_view kAnyUnit = "any";
+
 /// The value of `text` in the SI unit `unit` ("m", "m/s2", "1", "kg/m3", "rad/s", ...). Angles are a dimension of their
 /// own here: "50 Hz" is not accepted for "rad/s", since it could mean 50 rad/s or 50 turns a second. Thread-safe.
 /// @throws Error (usage, no place) when the number or the unit cannot be read, or the dimensions differ; the sentence

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <thread>
+#include <vector>
 
 #include "scree/base/error.hpp"
 
@@ -46,6 +49,26 @@ TEST(units, counted_things_have_no_dimension) {
 }
 
 TEST(units, temperatures_know_their_offset) { expect_close(parse_quantity("20 degC", "K"), 293.15); }
+
+TEST(units, any_unit_takes_every_dimension_to_its_own_si_unit) {
+  expect_close(parse_quantity("2 nC", kAnyUnit), 2e-9);
+  expect_close(parse_quantity("3 mm", kAnyUnit), 3e-3);
+  expect_close(parse_quantity("2.5 g/cm3", kAnyUnit), 2500.0);
+  expect_close(parse_quantity("60 rpm", kAnyUnit), 2 * std::numbers::pi);
+  EXPECT_EQ(parse_quantity("7", kAnyUnit), 7.0);
+}
+
+TEST(units, threads_share_the_library) {
+  std::vector<std::thread> threads;
+  std::atomic<int> wrong = 0;
+  for (int thread = 0; thread < 4; ++thread) {
+    threads.emplace_back([&wrong] {
+      for (int i = 0; i < 200; ++i) wrong += parse_quantity("1 km", "m") == 1000.0 ? 0 : 1;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
+}
 
 TEST(units, units_of_descriptions_are_known) {
   for (const char* unit :

@@ -94,6 +94,7 @@ Options read_variant(const SceneNode& node, const Parameter& parameter, const st
 
 Options::Entry read_table_list(const SceneNode& node, const Parameter& parameter, const std::string& subject) {
   Options::Entry entry = entry_at(node);
+  entry.is_list = true;
   const auto read_item = [&](const SceneNode& item, const std::string& name) {
     if (parameter.kind == ValueKind::variants) return read_variant(item, parameter, name);
     if (item.kind != SceneKind::table) refuse_kind(item, parameter, name);

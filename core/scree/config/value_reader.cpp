@@ -75,9 +75,7 @@ std::vector<double> read_numbers(const SceneNode& node, const Parameter& paramet
   std::vector<double> values;
   values.reserve(node.items.size());
   for (const auto& item : node.items) {
-    const bool plain = item->kind == SceneKind::integer || item->kind == SceneKind::number;
-    values.push_back(
-        read_number(*item, single, plain ? subject : subject + ", entry " + std::to_string(values.size())));
+    values.push_back(read_number(*item, single, subject + ", entry " + std::to_string(values.size())));
   }
   return values;
 }
