@@ -1,0 +1,58 @@
+// PolyData: points, vertices or triangles, and named arrays, written as a VTK XML file (.vtp).
+//
+// Arrays go to an appended raw block, each divided into blocks of at most kBlockSize bytes and compressed with zlib, as
+// "VTK File Formats" describes it: [number of blocks, size, size of the last if smaller, compressed sizes...] as
+// UInt64, then the blocks. Readers: VTK, ParaView, PyVista, meshio.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scree/math/quat.hpp"
+
+namespace scree {
+
+/// How floating-point arrays are stored.
+enum class Precision { single_precision, double_precision };
+
+/// One array of a file, as the bytes that go into it.
+struct DataArray {
+  std::string name;
+  std::string type;  ///< VTK's: "Float64", "Int32", ...
+  int components = 1;
+  std::vector<std::byte> bytes;
+};
+
+[[nodiscard]] DataArray to_array(std::string name, std::span<const double> values, Precision precision);
+[[nodiscard]] DataArray to_array(std::string name, std::span<const Vec3> values, Precision precision);
+/// Four components, w first.
+[[nodiscard]] DataArray to_array(std::string name, std::span<const Quat> values, Precision precision);
+[[nodiscard]] DataArray to_array(std::string name, std::span<const std::uint64_t> values);
+[[nodiscard]] DataArray to_array(std::string name, std::span<const std::int32_t> values);
+
+/// Words that go with a file: names of materials, for example, indexed by an integer array.
+struct TextArray {
+  std::string name;
+  std::vector<std::string> texts;
+};
+
+/// Contents of a file. Without triangles every point is a vertex cell.
+struct PolyData {
+  double time = 0.0;  ///< [s]
+  std::size_t point_count = 0;
+  DataArray points;  ///< three components [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<DataArray> point_data;  ///< one entry per point
+  std::vector<DataArray> cell_data;   ///< one entry per triangle
+  std::vector<TextArray> texts;
+};
+
+/// Writes the file as a whole or not at all. @throws Error (io).
+void write_vtp(const PolyData& data, const std::filesystem::path& file);
+
+}  // namespace scree

@@ -1,0 +1,178 @@
+#include "vtk_observer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "particle_arrays.hpp"
+#include "scree/interfaces/plugin_library.hpp"
+#include "scree/interfaces/scene_services.hpp"
+#include "scree/model/material.hpp"
+#include "scree/results/output_file.hpp"
+#include "scree/state/state_io.hpp"
+
+namespace scree {
+
+namespace {
+
+std::string file_name(const char* series, std::uint64_t step) { return fmt::format("{}_{:08}.vtp", series, step); }
+
+}  // namespace
+
+VtkObserver::VtkObserver(const Options& options)
+    : interval_{options.number("interval")},
+      walls_{options.boolean("walls")},
+      spheres_{options.boolean("spheres")},
+      precision_{options.text("precision") == "double" ? Precision::double_precision : Precision::single_precision},
+      surface_options_{static_cast<int>(options.integer("segments")), options.number("plane_size")} {}
+
+std::vector<Parameter> VtkObserver::parameters() {
+  return {
+      Parameter::number("interval", "s", "simulated time between two frames; rounded to whole steps")
+          .above(0.0)
+          .by_default(0.02),
+      Parameter::boolean("walls", "write the surfaces of fixed and kinematic bodies").by_default(true),
+      Parameter::boolean("spheres", "write a second series with one point per sphere of every particle")
+          .by_default(false),
+      Parameter::choice("precision", {"single", "double"}, "of floating-point arrays").by_default("double"),
+      Parameter::integer("segments", "of a full circle of a wall's surface").at_least(8).by_default(64),
+      Parameter::number("plane_size", "m", "edge of the square that stands for an unbounded plane")
+          .above(0.0)
+          .by_default(1.0),
+  };
+}
+
+void VtkObserver::setup(SceneServices& services, const std::filesystem::path& results) {
+  results_ = results;
+  shapes_ = &services.shapes();
+  materials_ = &services.materials();
+  steps_between_ = static_cast<std::uint64_t>(std::max(1.0, std::round(interval_ / services.time_step())));
+}
+
+void VtkObserver::observe(const Observation& now, Attributes&) {
+  if (!results_.empty() && now.step % steps_between_ == 0) write_frame(now);
+}
+
+void VtkObserver::finish(const Observation& last) {
+  if (!results_.empty() && last.step != last_step_) write_frame(last);
+}
+
+void VtkObserver::write_frame(const Observation& now) {
+  last_step_ = now.step;
+  const std::string particles = file_name("particles", now.step);
+  write_particles(now, particles);
+  frames_.push_back({now.time, 0, particles});
+  if (walls_) {
+    write_walls(now);
+    if (!wall_file_.empty()) frames_.push_back({now.time, 1, wall_file_});
+  }
+  write_collection("run.pvd", frames_);
+  if (!spheres_) return;
+  const std::string balls = file_name("spheres", now.step);
+  write_spheres(now, balls);
+  sphere_frames_.push_back({now.time, 0, balls});
+  write_collection("spheres.pvd", sphere_frames_);
+}
+
+std::vector<TextArray> VtkObserver::texts() const {
+  TextArray kinds{"type_names", {}};
+  for (std::size_t kind = 0; kind < kShapeKindCount; ++kind) {
+    kinds.texts.emplace_back(to_string(static_cast<ShapeKind>(kind)));
+  }
+  kinds.texts.emplace_back("compound");
+  return {{"material_names", materials_->names()}, kinds};
+}
+
+void VtkObserver::write_particles(const Observation& now, const std::string& file) const {
+  PolyData data = particle_data(now.bodies, *shapes_, precision_);
+  data.time = now.time;
+  data.texts = texts();
+  write_vtp(data, results_ / file);
+}
+
+void VtkObserver::write_spheres(const Observation& now, const std::string& file) const {
+  PolyData data = sphere_data(now.bodies, *shapes_, precision_);
+  data.time = now.time;
+  data.texts = texts();
+  write_vtp(data, results_ / file);
+}
+
+bool VtkObserver::walls_moved(const BodyView& bodies) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] != Motion::dynamic) poses.push_back({bodies.position[i], bodies.orientation[i]});
+  }
+  if (poses == wall_poses_) return false;
+  wall_poses_ = std::move(poses);
+  return true;
+}
+
+void VtkObserver::write_walls(const Observation& now) {
+  const BodyView& bodies = now.bodies;
+  if (!walls_moved(bodies)) return;
+  Surface surface;
+  std::vector<std::uint64_t> owner;
+  std::vector<std::int32_t> material;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] == Motion::dynamic) continue;
+    append_surface(*shapes_, shapes_->shapes()[bodies.shape[i]], {bodies.position[i], bodies.orientation[i]},
+                   surface_options_, surface);
+    owner.resize(surface.triangles.size(), bodies.id[i]);
+    material.resize(surface.triangles.size(), static_cast<std::int32_t>(bodies.material[i]));
+  }
+  if (surface.triangles.empty()) return;
+  PolyData data;
+  data.time = now.time;
+  data.texts = texts();
+  data.point_count = surface.points.size();
+  data.points = to_array("Points", std::span<const Vec3>{surface.points}, precision_);
+  data.triangles = std::move(surface.triangles);
+  data.cell_data = {to_array("id", owner), to_array("material", material)};
+  wall_file_ = file_name("walls", now.step);
+  write_vtp(data, results_ / wall_file_);
+}
+
+void VtkObserver::write_collection(const std::string& name, const std::vector<Frame>& frames) const {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  for (const Frame& frame : frames) {
+    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", frame.time, frame.part,
+                        frame.file);
+  }
+  replace_file(results_ / name, std::string_view{text + "</Collection>\n</VTKFile>\n"});
+}
+
+void VtkObserver::save(StateWriter& out) const {
+  std::string text;
+  for (const Frame& frame : frames_) text += fmt::format("{} {} {}\n", frame.time, frame.part, frame.file);
+  for (const Frame& frame : sphere_frames_) text += fmt::format("{} {} {}\n", frame.time, 2, frame.file);
+  out.write("frames", text);
+}
+
+void VtkObserver::load(const StateReader& in) {
+  // A run that goes on in its old folder keeps its earlier frames; in a new folder they do not exist.
+  std::istringstream text{in.text("frames")};
+  Frame frame{};
+  while (text >> frame.time >> frame.part >> frame.file) {
+    if (!std::filesystem::exists(results_ / frame.file)) continue;
+    if (frame.part == 2) {
+      sphere_frames_.push_back({frame.time, 0, frame.file});
+    } else {
+      frames_.push_back(frame);
+    }
+  }
+}
+
+}  // namespace scree
+
+namespace {
+
+void list(scree::PluginList& plugins) {
+  plugins.add<scree::Observer, scree::VtkObserver>("vtk", "Particles and walls as VTK files, for ParaView.",
+                                                   scree::VtkObserver::parameters());
+}
+
+}  // namespace
+
+extern "C" SCREE_EXPORT const scree::PluginLibrary scree_plugin_library{scree::describe_library("vtk", "1.0.0", &list)};

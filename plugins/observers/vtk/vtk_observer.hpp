@@ -1,0 +1,62 @@
+// VtkObserver: particles and walls as series of VTK files, for ParaView and other readers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "poly_data.hpp"
+#include "scree/config/options.hpp"
+#include "scree/interfaces/observer.hpp"
+#include "surface.hpp"
+
+namespace scree {
+
+class Materials;
+
+/// Writes particles_*.vtp (dynamic bodies), walls_*.vtp (fixed and kinematic ones, when they moved), optionally
+/// spheres_*.vtp, and the collections run.pvd and spheres.pvd.
+class VtkObserver final : public Observer {
+ public:
+  explicit VtkObserver(const Options& options);
+  static std::vector<Parameter> parameters();
+
+  void setup(SceneServices& services, const std::filesystem::path& results) override;
+  void observe(const Observation& now, Attributes& attributes) override;
+  void finish(const Observation& last) override;
+  void save(StateWriter& out) const override;
+  void load(const StateReader& in) override;
+
+ private:
+  /// One line of a collection.
+  struct Frame {
+    double time;  ///< [s]
+    int part;     ///< 0: particles, 1: walls
+    std::string file;
+  };
+
+  void write_frame(const Observation& now);
+  void write_particles(const Observation& now, const std::string& file) const;
+  void write_spheres(const Observation& now, const std::string& file) const;
+  void write_walls(const Observation& now);
+  [[nodiscard]] bool walls_moved(const BodyView& bodies);
+  void write_collection(const std::string& name, const std::vector<Frame>& frames) const;
+  [[nodiscard]] std::vector<TextArray> texts() const;
+
+  double interval_;  ///< [s]
+  bool walls_;
+  bool spheres_;
+  Precision precision_;
+  SurfaceOptions surface_options_;
+
+  std::filesystem::path results_;
+  const ShapeSet* shapes_ = nullptr;
+  const Materials* materials_ = nullptr;
+  std::uint64_t steps_between_ = 1;
+  std::uint64_t last_step_ = ~std::uint64_t{0};  ///< written last
+  std::vector<Pose> wall_poses_;                 ///< when they were written last
+  std::string wall_file_;
+  std::vector<Frame> frames_;
+  std::vector<Frame> sphere_frames_;
+};
+
+}  // namespace scree
