@@ -187,6 +187,8 @@ std::string scene_schema(std::span<const SchemaSection> sections, std::span<cons
     Json property{{"description", section.help}};
     if (section.is_list) {
       property["anyOf"] = Json::array({{{"type", "array"}, {"items", reference}}, reference});
+    } else if (section.is_named) {
+      property.update({{"type", "object"}, {"additionalProperties", reference}});
     } else {
       property.update(reference);
     }

@@ -21,6 +21,7 @@ struct SchemaSection {
   std::string key;
   std::string help;
   bool is_list = false;
+  bool is_named = false;  ///< tables by free names, `[key.NAME]`
   bool required = false;
   std::vector<Parameter> parameters;  ///< core's own keys; they go with every plugin
   std::vector<SchemaPlugin> plugins;  ///< when not empty, `type` chooses one of them

@@ -1,0 +1,68 @@
+// scree plugins [show KIND:NAME]: what is there, from which file, and what it takes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "commands.hpp"
+#include "scene_plugins.hpp"
+#include "scree/config/describe_text.hpp"
+
+namespace scree {
+namespace {
+
+struct PluginsOptions {
+  std::vector<std::string> plugin_dirs;
+  std::string name;  ///< kind:name of `show`
+};
+
+void list_plugins(const PluginHost& host) {
+  std::size_t width = 0;
+  for (const PluginEntry* entry : host.entries()) {
+    width = std::max(width, entry->kind.size() + entry->name.size() + 1);
+  }
+  for (const PluginEntry* entry : host.entries()) {
+    fmt::print("{:<{}}  {}\n{:<{}}  {} {}\n", entry->kind + ":" + entry->name, width, entry->help, "", width,
+               entry->library, entry->version);
+  }
+  if (!host.entries().empty()) return;
+  fmt::print("no plugins; searched in:\n");
+  for (const auto& folder : host.searched()) fmt::print("  {}\n", folder.string());
+}
+
+void show_plugin(const PluginHost& host, const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string::npos) {
+    throw Error{ErrorKind::usage, "'" + name + "' names no plugin; write KIND:NAME, for example force_field:" + name};
+  }
+  const PluginEntry& entry = host.entry(name.substr(0, colon), name.substr(colon + 1), {});
+  fmt::print("{}:{}\n  {}\n  from {} {}\n", entry.kind, entry.name, entry.help, entry.library, entry.version);
+  const std::string parameters = describe_parameters(entry.parameters);
+  fmt::print("\n{}", parameters.empty() ? "  It takes no settings.\n" : parameters);
+}
+
+}  // namespace
+
+void add_plugins_command(CLI::App& app, int& /*exit_code*/) {
+  const auto options = std::make_shared<PluginsOptions>();
+  CLI::App* plugins = app.add_subcommand("plugins", "List the plugins and the files they come from");
+  plugins->add_option("--plugin-dir", options->plugin_dirs, "Look for plugins in this folder first (may be repeated)")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  CLI::App* show = plugins->add_subcommand("show", "Print the settings of one plugin: units, defaults, valid values");
+  show->add_option("plugin", options->name, "The plugin, for example force_field:drag")
+      ->required()
+      ->type_name("KIND:NAME");
+  show->fallthrough();
+  plugins->final_callback([options, show] {
+    const PluginHost host = find_general_plugins(options->plugin_dirs);
+    if (show->parsed()) {
+      show_plugin(host, options->name);
+    } else {
+      list_plugins(host);
+    }
+  });
+}
+
+}  // namespace scree

@@ -1,0 +1,21 @@
+// The plugins that a command works with, and how it tells the user about files that were left out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scree/host/plugin_host.hpp"
+
+namespace scree {
+
+class SceneDocument;
+
+/// The plugins of the folders in `plugin_dirs`, of SCREE_PLUGIN_PATH and of scree itself. Prints a warning for every
+/// file that was left out. @throws Error (usage) for a folder that does not exist.
+[[nodiscard]] PluginHost find_general_plugins(const std::vector<std::string>& plugin_dirs);
+
+/// The same, after those that the scene names in `plugins = [...]`, relative to the file that says so.
+[[nodiscard]] PluginHost find_scene_plugins(const SceneDocument& scene, const std::vector<std::string>& plugin_dirs);
+
+}  // namespace scree
