@@ -18,6 +18,9 @@
 
 namespace scree {
 
+class StateReader;
+class StateWriter;
+
 /// Kinds of collision primitive. Axes of revolution are the primitive's z axis.
 enum class ShapeKind : std::uint8_t {
   sphere,          ///< size.x: radius
@@ -102,6 +105,9 @@ class ShapeSet {
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
   /// The index of a shape by name, or -1.
   [[nodiscard]] std::int64_t find(std::string_view name) const;
+
+  void save(StateWriter& out) const;
+  void load(const StateReader& in);
 
  private:
   std::vector<Shape> shapes_;

@@ -1,0 +1,104 @@
+#include "scree/simulation/parts.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "scree/config/scene_document.hpp"
+#include "scree/config/validate.hpp"
+#include "scree/simulation/scene_sections.hpp"
+
+namespace scree {
+namespace {
+
+/// Core's own keys of a plugin section, validated apart from the plugin's.
+Options core_options(const SceneTable& table, std::string_view section,
+                     const std::vector<std::string_view>& plugin_keys) {
+  return validate(table.without(plugin_keys), scene_section(section).parameters, "[" + std::string{section} + "]");
+}
+
+template <class Interface>
+Part<Interface> make_part(const SceneTable& table, const PluginCatalog& catalog, Options* core = nullptr) {
+  const std::string kind = Interface::kKind;
+  const std::string type = table.text("type");
+  const PluginEntry& entry = catalog.entry(kind, type, table.location("type"));
+
+  std::vector<std::string_view> core_keys{"type"};
+  for (const Parameter& parameter : scene_section(kind).parameters) core_keys.push_back(parameter.name);
+  std::vector<std::string> keys = table.keys();
+  std::vector<std::string_view> plugin_keys;
+  for (const std::string& key : keys) {
+    const bool is_core = key != "type" && std::find(core_keys.begin(), core_keys.end(), key) != core_keys.end();
+    if (!is_core) plugin_keys.push_back(key);
+  }
+  const Options own = core_options(table, kind, plugin_keys);
+  if (core != nullptr) *core = own;
+
+  Part<Interface> part;
+  part.info = {kind, type, type, entry.library, entry.version};
+  const std::vector<std::string> own_names = own.names();
+  if (std::find(own_names.begin(), own_names.end(), "name") != own_names.end() && !own.text("name").empty()) {
+    part.info.name = own.text("name");
+  }
+  part.options = validate(table.without(core_keys), entry.parameters, part.info.label());
+  part.options.set_type(type);
+  std::unique_ptr<Plugin> plugin = guarded(part.info, ErrorKind::usage, [&] { return entry.make(part.options); });
+  part.plugin.reset(dynamic_cast<Interface*>(plugin.get()));
+  if (part.plugin == nullptr) {
+    throw Error{ErrorKind::usage, part.info.label_with_library() + " is not a " + kind +
+                                      "; the library registered it under the wrong kind"};
+  }
+  static_cast<void>(plugin.release());
+  return part;
+}
+
+template <class Interface>
+Part<Interface> make_required(const SceneTable& root, const PluginCatalog& catalog) {
+  const std::string kind = Interface::kKind;
+  if (root.has(kind)) return make_part<Interface>(root.table(kind), catalog);
+  std::string known;
+  for (const PluginEntry* entry : catalog.entries()) {
+    if (entry->kind == kind) known += (known.empty() ? "" : ", ") + entry->name;
+  }
+  throw Error{ErrorKind::usage, root.location(),
+              "the scene has no [" + kind +
+                  "]; add one with `type` set to one of: " + (known.empty() ? "(none found)" : known)};
+}
+
+template <class Interface>
+std::vector<Part<Interface>> make_list(const SceneTable& root, const PluginCatalog& catalog) {
+  std::vector<Part<Interface>> parts;
+  for (const SceneTable& table : root.tables(Interface::kKind)) {
+    Part<Interface> part = make_part<Interface>(table, catalog);
+    for (const auto& other : parts) {
+      if (other.info.name != part.info.name) continue;
+      throw Error{ErrorKind::usage, table.location(),
+                  "two " + part.info.kind + "s are called '" + part.info.name + "'; give one of them another `name`"};
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace
+
+Parts make_parts(const SceneDocument& document, const PluginCatalog& catalog) {
+  const SceneTable root = document.root();
+  Parts parts;
+  parts.stepper = make_required<TimeStepper>(root, catalog);
+  if (root.has("ccp_solver")) {
+    Options core;
+    parts.solver = make_part<CcpSolver>(root.table("ccp_solver"), catalog, &core);
+    parts.solver_tolerance = core.number("tolerance");
+    parts.solver_iterations = static_cast<int>(core.integer("max_iterations"));
+  }
+  parts.broad = make_required<BroadPhase>(root, catalog);
+  parts.narrow = make_list<NarrowPhase>(root, catalog);
+  parts.electric = make_list<ElectricField>(root, catalog);
+  parts.forces = make_list<ForceField>(root, catalog);
+  parts.sources = make_list<Source>(root, catalog);
+  parts.sinks = make_list<Sink>(root, catalog);
+  parts.observers = make_list<Observer>(root, catalog);
+  return parts;
+}
+
+}  // namespace scree

@@ -1,0 +1,174 @@
+#include "scree/simulation/scene_sections.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace scree {
+namespace {
+
+std::vector<Parameter> contact_parameters() {
+  return {Parameter::number("friction", "1", "coefficient of sliding friction").at_least(0.0).by_default(0.0),
+          Parameter::number("restitution", "1", "coefficient of restitution of the normal velocity")
+              .at_least(0.0)
+              .at_most(1.0)
+              .by_default(0.0),
+          Parameter::number("rolling_friction", "m", "arm of the rolling torque").at_least(0.0).by_default(0.0),
+          Parameter::number("spinning_friction", "m", "arm of the spinning torque").at_least(0.0).by_default(0.0),
+          Parameter::number("compliance", "m/N", "normal compliance, the inverse of a stiffness; 0 is rigid")
+              .at_least(0.0)
+              .by_default(0.0),
+          Parameter::number("damping", "N s/m", "normal damping of a compliant contact").at_least(0.0).by_default(0.0)};
+}
+
+/// Position and rotation of a part, a primitive or a body.
+std::vector<Parameter> pose_parameters() {
+  return {Parameter::vector("position", "m", "of the shape's origin").by_default(Vec3{}),
+          Parameter::vector("rotation_axis", "1", "axis of the rotation by rotation_angle").by_default(Vec3{0, 0, 1}),
+          Parameter::number("rotation_angle", "rad", "angle of the rotation about rotation_axis").by_default(0.0)};
+}
+
+std::vector<Parameter> operator+(std::vector<Parameter> a, const std::vector<Parameter>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Primitives, as parts of compounds or shapes of their own.
+std::vector<Variant> primitive_variants(const std::vector<Parameter>& placed) {
+  const auto length = [](const char* name, const char* help) { return Parameter::number(name, "m", help).above(0.0); };
+  const auto file = [](const char* help) { return Parameter::path("file", help).optional(); };
+  return {{"sphere", "A ball.", std::vector<Parameter>{length("radius", "radius")} + placed},
+          {"sphere_cluster", "A rigid union of spheres.",
+           std::vector<Parameter>{Parameter::tables(
+               "spheres",
+               {Parameter::vector("centre", "m", "centre of the sphere"), length("radius", "radius of the sphere")},
+               "the spheres")} +
+               placed},
+          {"box", "A cuboid.",
+           std::vector<Parameter>{Parameter::vector("size", "m", "full edge lengths along x, y and z").above(0.0)} +
+               placed},
+          {"cylinder", "A cylinder about its z axis, solid or seen from inside.",
+           std::vector<Parameter>{
+               length("radius", "radius"), length("length", "full length along z"),
+               Parameter::boolean("hollow", "the inside is free and the outside solid: a drum").by_default(false)} +
+               placed},
+          {"capsule", "A cylinder with round caps about its z axis.",
+           std::vector<Parameter>{length("radius", "radius"), length("length", "length of the straight part along z")} +
+               placed},
+          {"cone", "A cone about its z axis, apex at +z.",
+           std::vector<Parameter>{length("radius", "radius of the base"), length("height", "height along z")} + placed},
+          {"plane", "The half space below z = 0 of its own frame; unbounded.",
+           std::vector<Parameter>{
+               Parameter::vector("normal", "1", "outward normal, before the rotation").by_default(Vec3{0, 0, 1})} +
+               placed},
+          {"convex_hull", "The convex hull of points.",
+           std::vector<Parameter>{
+               Parameter::numbers("points", "m", "x, y, z of each point, one after the other").optional(),
+               file("STL, OBJ or PLY file with the points"),
+               Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
+               placed},
+          {"triangle_mesh", "A surface of triangles.",
+           std::vector<Parameter>{
+               Parameter::numbers("vertices", "m", "x, y, z of each vertex, one after the other").optional(),
+               Parameter::numbers("triangles", "1", "three indices of vertices a triangle, from 0, counter-clockwise")
+                   .optional(),
+               file("STL, OBJ or PLY file"),
+               Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
+               placed}};
+}
+
+std::vector<SceneSection> model_sections() {
+  return {
+      {"simulation",
+       SectionForm::single,
+       "Time and randomness.",
+       {Parameter::text("title", "shown in results").by_default(""),
+        Parameter::number("end_time", "s", "simulated time at which the run ends").at_least(0.0),
+        Parameter::number("time_step", "s", "outer step").above(0.0).by_default(1e-3),
+        Parameter::integer("seed", "of all random streams").at_least(0).by_default(1),
+        Parameter::number("max_speed", "m/s", "a faster body ends the run as diverged").above(0.0).by_default(1e4),
+        Parameter::boolean("allow_overlap", "accept bodies of the scene that overlap at the start").by_default(false)}},
+      {"contacts",
+       SectionForm::single,
+       "What holds between materials that are not listed as a pair.",
+       {Parameter::choice("unlisted_pair", {"minimum", "maximum", "mean", "geometric_mean"},
+                          "how friction, restitution and damping of two materials combine; compliances add")
+            .by_default("minimum")}},
+      {"material", SectionForm::named, "A material: [material.steel].",
+       std::vector<Parameter>{
+           Parameter::number("density", "kg/m3", "mass density").above(0.0).by_default(1000.0),
+           Parameter::columns("attributes", {}, "1", "body attributes that come with the material, in SI").optional()} +
+           contact_parameters()},
+      {"material_pair", SectionForm::list, "Contact parameters of two materials.",
+       std::vector<Parameter>{Parameter::texts("between", "the two materials").with_count(2)} + contact_parameters()},
+      {"shape", SectionForm::named, "A shape: [shape.drum] with `type`.", {}},
+      {"body", SectionForm::list, "A body that exists from the start.",
+       std::vector<Parameter>{
+           Parameter::text("name", "by which parts and messages refer to it").by_default(""),
+           Parameter::text("shape", "name of a shape"), Parameter::text("material", "name of a material"),
+           Parameter::choice("motion", {"dynamic", "kinematic", "fixed"}, "by forces, as told, or not at all")
+               .by_default("fixed"),
+           Parameter::vector("velocity", "m/s", "of the centre of mass; of a kinematic body for ever")
+               .by_default(Vec3{}),
+           Parameter::vector("angular_velocity", "rad/s", "world frame; of a kinematic body for ever")
+               .by_default(Vec3{}),
+           Parameter::boolean("collides", "false: nothing touches the body").by_default(true),
+           Parameter::columns("attributes", {}, "1", "body attributes, in SI").optional()} +
+           pose_parameters()}};
+}
+
+std::vector<SceneSection> part_sections() {
+  const Parameter name = Parameter::text("name", "of this part; its type when left out").by_default("");
+  return {
+      {"time_stepper", SectionForm::at_most_one_plugin, "How a step is taken.", {}},
+      {"ccp_solver",
+       SectionForm::at_most_one_plugin,
+       "Solves the contact problem of a step.",
+       {Parameter::number("tolerance", "m/s", "stop at this residual of the contact problem")
+            .at_least(0.0)
+            .by_default(1e-3),
+        Parameter::integer("max_iterations", "stop after so many iterations").at_least(1).by_default(100)}},
+      {"broad_phase", SectionForm::at_most_one_plugin, "Finds pairs of boxes that meet.", {}},
+      {"narrow_phase", SectionForm::plugin_list, "Computes contacts; the first that supports a pair gets it.", {name}},
+      {"electric_field", SectionForm::plugin_list, "Fields that force fields look up by name.", {name}},
+      {"force_field", SectionForm::plugin_list, "Forces on bodies, advanced in this order.", {name}},
+      {"source", SectionForm::plugin_list, "Feeds of bodies.", {name}},
+      {"sink", SectionForm::plugin_list, "What takes bodies out.", {name}},
+      {"observer", SectionForm::plugin_list, "What looks and writes.", {name}},
+      {"output",
+       SectionForm::single,
+       "What the run itself writes.",
+       {Parameter::integer("steps_every", "a row of steps.csv every so many steps").at_least(1).by_default(1),
+        Parameter::number("checkpoint_interval", "s",
+                          "simulated time between checkpoints; 0 writes one at the end only")
+            .at_least(0.0)
+            .by_default(0.0)}}};
+}
+
+}  // namespace
+
+std::vector<Variant> shape_variants() {
+  std::vector<Variant> shapes = primitive_variants(pose_parameters());
+  shapes.push_back(
+      {"compound",
+       "Several shapes joined rigidly.",
+       {Parameter::variants("parts", primitive_variants(pose_parameters()), "the parts, each with a pose")}});
+  return shapes;
+}
+
+const std::vector<SceneSection>& scene_sections() {
+  static const std::vector<SceneSection> sections = [] {
+    std::vector<SceneSection> all = model_sections();
+    for (SceneSection& part : part_sections()) all.push_back(std::move(part));
+    return all;
+  }();
+  return sections;
+}
+
+const SceneSection& scene_section(std::string_view name) {
+  for (const SceneSection& section : scene_sections()) {
+    if (section.name == name) return section;
+  }
+  throw std::logic_error{"core has no scene section '" + std::string{name} + "'"};
+}
+
+}  // namespace scree

@@ -1,0 +1,107 @@
+#include "scree/simulation/setup_services.hpp"
+
+#include "scree/config/suggest.hpp"
+
+namespace scree {
+namespace {
+
+/// "; did you mean 'x'?" or nothing.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_word(word, candidates);
+  return nearest.empty() ? std::string{} : "; did you mean '" + nearest + "'?";
+}
+
+[[noreturn]] void throw_unknown(const PartInfo& part, std::string_view what, std::string_view name,
+                                const std::vector<std::string>& known) {
+  throw Error{ErrorKind::usage, part.label() + " asks for the " + std::string{what} + " '" + std::string{name} +
+                                    "', but the scene has " + list_of(known) + suggestion(name, known)};
+}
+
+}  // namespace
+
+void SetupServices::provide_from_scene() {
+  Attributes& columns = context_.bodies.attributes();
+  const Materials& materials = context_.model.materials;
+  for (std::uint32_t m = 0; m < materials.size(); ++m) {
+    for (const auto& [name, value] : materials[m].attributes) {
+      columns.declare({name, "1", "given by materials", 0.0, {"material '" + materials[m].name + "'"}});
+    }
+  }
+  for (const SceneBody& body : context_.model.bodies) {
+    if (!body.options.has("attributes")) continue;
+    for (const std::string& name : body.options.table("attributes").names()) {
+      columns.declare({name, "1", "given by bodies", 0.0, {"body '" + body.name + "'"}});
+    }
+  }
+}
+
+void SetupServices::check_attributes() const {
+  const Attributes& columns = context_.bodies.attributes();
+  for (const Reader& reader : readers_) {
+    if (!columns.info(columns.id(reader.attribute)).writers.empty()) continue;
+    throw Error{ErrorKind::usage, reader.part + " reads the body attribute '" + reader.attribute + "' (" + reader.help +
+                                      "), which nothing in the scene provides; set it in a material's, a body's or a "
+                                      "source's `attributes`, or add the part that writes it"};
+  }
+}
+
+const ElectricField& SetupServices::electric_field(std::string_view name) const {
+  std::vector<std::string> known;
+  for (const Part<ElectricField>& field : context_.parts.electric) {
+    if (field.info.name == name) return *field.plugin;
+    known.push_back(field.info.name);
+  }
+  throw_unknown(*part_, "electric_field", name, known);
+}
+
+NamedBody SetupServices::body(std::string_view name) const {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < context_.model.bodies.size(); ++i) {
+    const SceneBody& body = context_.model.bodies[i];
+    if (!body.name.empty()) known.push_back(body.name);
+    // Bodies of the scene are added first and in order, so that their ids are known before they exist.
+    if (body.name == name)
+      return {static_cast<BodyId>(i), body.body.pose, context_.model.shapes.shapes()[body.body.shape].name};
+  }
+  throw_unknown(*part_, "body", name, known);
+}
+
+std::uint32_t SetupServices::material(std::string_view name) const {
+  const std::int64_t index = context_.model.materials.find(name);
+  if (index < 0) throw_unknown(*part_, "material", name, context_.model.materials.names());
+  return static_cast<std::uint32_t>(index);
+}
+
+AttributeId SetupServices::provide_attribute(const AttributeInfo& info) {
+  Attributes& columns = context_.bodies.attributes();
+  if (columns.has(info.name) && part_->kind == ForceField::kKind) {
+    for (const std::string& writer : columns.info(columns.id(info.name)).writers) {
+      if (writer.rfind(ForceField::kKind, 0) != 0) continue;
+      throw Error{ErrorKind::usage, part_->label() + " and " + writer + " both write the body attribute '" + info.name +
+                                        "'; only one force field may"};
+    }
+  }
+  AttributeInfo signed_info = info;
+  signed_info.writers = {part_->label()};
+  return columns.declare(signed_info);
+}
+
+AttributeId SetupServices::require_attribute(std::string_view name, std::string_view unit, std::string_view help) {
+  readers_.push_back({part_->label(), std::string{name}, std::string{help}});
+  return context_.bodies.attributes().declare({std::string{name}, std::string{unit}, std::string{help}, 0.0, {}});
+}
+
+AttributeId SetupServices::optional_attribute(const AttributeInfo& info) {
+  return context_.bodies.attributes().declare(info);
+}
+
+RandomStream SetupServices::random_stream(std::string_view purpose) const {
+  const auto seed = static_cast<std::uint64_t>(context_.model.simulation.integer("seed"));
+  return {seed, part_->kind + ":" + part_->name + "/" + std::string{purpose}};
+}
+
+void SetupServices::log(std::string_view line) const {
+  context_.log.push_back(part_->label() + ": " + std::string{line});
+}
+
+}  // namespace scree

@@ -1,0 +1,61 @@
+// SetupServices: what parts ask for at setup, answered from the scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scree/interfaces/scene_services.hpp"
+#include "scree/simulation/parts.hpp"
+#include "scree/simulation/scene_model.hpp"
+
+namespace scree {
+
+/// Everything of a simulation that parts may refer to. The objects outlive the services.
+struct SetupContext {
+  SceneModel& model;
+  BodyStore& bodies;
+  const Parts& parts;
+  const Executor& executor;
+  double time_step;  ///< [s]
+  double end_time;   ///< [s]
+  std::vector<std::string>& log;
+};
+
+/// Answers one part at a time.
+class SetupServices final : public SceneServices {
+ public:
+  explicit SetupServices(const SetupContext& context) : context_{context} {}
+
+  /// Says which part asks from now on; named in messages, streams and attribute writers.
+  void serve(const PartInfo& part) { part_ = &part; }
+  /// Lets materials and scene bodies provide the columns that they set.
+  void provide_from_scene();
+  /// Refuses a simulation in which a part reads a column that nothing provides. @throws Error (usage).
+  void check_attributes() const;
+
+  [[nodiscard]] const ElectricField& electric_field(std::string_view name) const override;
+  [[nodiscard]] NamedBody body(std::string_view name) const override;
+  [[nodiscard]] std::uint32_t material(std::string_view name) const override;
+  [[nodiscard]] Materials& materials() override { return context_.model.materials; }
+  [[nodiscard]] ShapeSet& shapes() override { return context_.model.shapes; }
+  AttributeId provide_attribute(const AttributeInfo& info) override;
+  AttributeId require_attribute(std::string_view name, std::string_view unit, std::string_view help) override;
+  AttributeId optional_attribute(const AttributeInfo& info) override;
+  [[nodiscard]] RandomStream random_stream(std::string_view purpose) const override;
+  [[nodiscard]] const Executor& executor() const override { return context_.executor; }
+  [[nodiscard]] double time_step() const override { return context_.time_step; }
+  [[nodiscard]] double end_time() const override { return context_.end_time; }
+  void log(std::string_view line) const override;
+
+ private:
+  struct Reader {
+    std::string part;
+    std::string attribute;
+    std::string help;
+  };
+  SetupContext context_;
+  const PartInfo* part_ = nullptr;
+  std::vector<Reader> readers_;
+};
+
+}  // namespace scree

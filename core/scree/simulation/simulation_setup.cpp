@@ -1,0 +1,108 @@
+// How a simulation is put together from its scene.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "scree/config/scene_document.hpp"
+#include "scree/simulation/simulation_state.hpp"
+
+namespace scree {
+namespace {
+
+SceneModel read_checked(const SceneDocument& document) {
+  check_section_names(document);
+  return read_scene_model(document);
+}
+
+std::string name_of(const SceneModel& model, BodyIndex index) {
+  const std::string& name = model.bodies[index].name;
+  return name.empty() ? "body " + std::to_string(index) + " (of shape '" + model.bodies[index].shape + "')"
+                      : "body '" + name + "'";
+}
+
+}  // namespace
+
+Simulation::State::State(const SceneDocument& document, const PluginCatalog& catalog, const SimulationSettings& wanted)
+    : settings{wanted}, executor{wanted.threads}, model{read_checked(document)}, parts{make_parts(document, catalog)} {
+  time_step = model.simulation.number("time_step");
+  end_time = wanted.end_time.value_or(model.simulation.number("end_time"));
+  max_speed = model.simulation.number("max_speed");
+  feed.fed.resize(model.materials.size());
+  feed.removed.resize(model.materials.size());
+
+  services.emplace(SetupContext{model, bodies, parts, executor, time_step, end_time, log});
+  setup_parts();
+  add_scene_bodies();
+
+  std::vector<NarrowPhase*> chain;
+  for (const Part<NarrowPhase>& narrow : parts.narrow) chain.push_back(narrow.plugin.get());
+  pipeline.emplace(model.shapes, *parts.broad.plugin, std::move(chain), executor);
+  host.emplace(parts, *pipeline, model.materials, executor, timer);
+  pipeline->check_support(bodies.view());
+  check_overlap();
+}
+
+void Simulation::State::setup_parts() {
+  services->provide_from_scene();
+  const auto setup = [&](const auto& part) {
+    services->serve(part.info);
+    guarded(part.info, ErrorKind::usage, [&] { part.plugin->setup(*services); });
+  };
+  for (const auto& part : parts.electric) setup(part);
+  for (const auto& part : parts.forces) setup(part);
+  for (const auto& part : parts.sources) setup(part);
+  for (const auto& part : parts.sinks) setup(part);
+  setup(parts.stepper);
+  for (const auto& part : parts.observers) {
+    services->serve(part.info);
+    guarded(part.info, ErrorKind::usage, [&] { part.plugin->setup(*services, settings.results); });
+  }
+  services->check_attributes();
+}
+
+void Simulation::State::add(NewBody body) {
+  // What the body says about itself wins over what its material says.
+  std::vector<std::pair<AttributeId, double>> values;
+  for (const auto& [name, value] : model.materials[body.material].attributes) {
+    values.emplace_back(bodies.attributes().id(name), value);
+  }
+  values.insert(values.end(), body.attributes.begin(), body.attributes.end());
+  body.attributes = std::move(values);
+  if (body.motion == Motion::dynamic) feed.fed[body.material].add(body.mass);
+  bodies.add(body);
+}
+
+void Simulation::State::add_scene_bodies() {
+  for (const SceneBody& scene_body : model.bodies) {
+    NewBody body = scene_body.body;
+    if (scene_body.options.has("attributes")) {
+      const Options& attributes = scene_body.options.table("attributes");
+      for (const std::string& name : attributes.names()) {
+        body.attributes.emplace_back(bodies.attributes().id(name), attributes.number(name));
+      }
+    }
+    add(std::move(body));
+  }
+}
+
+void Simulation::State::check_overlap() {
+  if (model.simulation.boolean("allow_overlap")) return;
+  const BodyView view = bodies.view();
+  const std::vector<Vec3> still(view.size());
+  for (const Contact& contact : pipeline->find(view, still, still, 0.0)) {
+    // Bodies that are written as touching overlap by rounding; a thousandth of the radius is the solver's own size.
+    double radius = 0.0;
+    for (const BodyIndex body : {contact.a, contact.b}) {
+      if (view.motion[body] == Motion::dynamic)
+        radius = radius == 0.0 ? view.radius[body] : std::min(radius, view.radius[body]);
+    }
+    if (contact.gap >= -1e-3 * radius) continue;
+    char depth[32];
+    std::snprintf(depth, sizeof depth, "%.3g", -contact.gap);
+    throw Error{ErrorKind::usage, model.bodies[contact.b].options.location(),
+                name_of(model, contact.a) + " and " + name_of(model, contact.b) + " overlap by " + depth +
+                    " m at the start; move one of them, or set simulation.allow_overlap = true"};
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,33 @@
+#include "scree/simulation/step_host.hpp"
+
+#include "scree/simulation/force_sum.hpp"
+
+namespace scree {
+
+void StepHost::forces(const BodyView& bodies, double time, WrenchView out) {
+  const PhaseTimer::Scope scope{timer_, Phase::forces};
+  sum_forces(parts_.forces, bodies, time, out);
+}
+
+std::span<const Contact> StepHost::contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
+                                            std::span<const Vec3> free_angular_velocity, double dt) {
+  const PhaseTimer::Scope scope{timer_, Phase::collision};
+  return pipeline_.find(bodies, free_velocity, free_angular_velocity, dt);
+}
+
+SolveSummary StepHost::solve_ccp(const CcpProblem& problem, std::span<double> gamma) {
+  const PhaseTimer::Scope scope{timer_, Phase::solver};
+  if (!parts_.solver) {
+    throw Error{ErrorKind::usage,
+                parts_.stepper.info.label() +
+                    " solves a contact problem, but the scene has no [ccp_solver]; add one with `type`"};
+  }
+  const SolveContext context{.tolerance = parts_.solver_tolerance,
+                             .max_iterations = parts_.solver_iterations,
+                             .executor = &executor_,
+                             .on_iteration = {}};
+  return guarded(parts_.solver->info, ErrorKind::diverged,
+                 [&] { return parts_.solver->plugin->solve(problem, context, gamma); });
+}
+
+}  // namespace scree

@@ -1,0 +1,36 @@
+// StepHost: the services that a time stepper calls during a step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scree/collision/collision_pipeline.hpp"
+#include "scree/interfaces/time_stepper.hpp"
+#include "scree/simulation/parts.hpp"
+#include "scree/simulation/phase_timer.hpp"
+
+namespace scree {
+
+/// Answers a stepper from the scene's fields, collision phases and solver, and keeps the time of each.
+class StepHost final : public StepServices {
+ public:
+  StepHost(const Parts& parts, CollisionPipeline& pipeline, const Materials& materials, const Executor& executor,
+           PhaseTimer& timer)
+      : parts_{parts}, pipeline_{pipeline}, materials_{materials}, executor_{executor}, timer_{timer} {}
+
+  void forces(const BodyView& bodies, double time, WrenchView out) override;
+  std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
+                                    std::span<const Vec3> free_angular_velocity, double dt) override;
+  SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) override;
+  [[nodiscard]] const Materials& materials() const override { return materials_; }
+  [[nodiscard]] const Executor& executor() const override { return executor_; }
+
+ private:
+  const Parts& parts_;
+  CollisionPipeline& pipeline_;
+  const Materials& materials_;
+  const Executor& executor_;
+  PhaseTimer& timer_;
+};
+
+}  // namespace scree
