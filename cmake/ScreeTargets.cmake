@@ -58,4 +58,5 @@ function(scree_add_benchmark name)
   add_dependencies(scree_benchmarks ${name})
 endfunction()
 
+include(ScreeExample)
 include(ScreePlugin)

@@ -14,12 +14,12 @@
 namespace scree {
 namespace {
 
-std::string quoted(const std::string& word) { return "'" + word + "'"; }
+std::string in_quotes(const std::string& word) { return "'" + word + "'"; }
 
 /// "; did you mean 'x'?" or nothing.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? std::string{} : "; did you mean " + quoted(nearest) + "?";
+  return nearest.empty() ? std::string{} : "; did you mean " + in_quotes(nearest) + "?";
 }
 
 Options read_single(const SceneTable& root, std::string_view section) {
@@ -50,7 +50,7 @@ PairRule pair_rule(const std::string& word) {
 std::uint32_t find_material(const Materials& materials, const std::string& name, const Options& o, const char* key) {
   const std::int64_t index = materials.find(name);
   if (index >= 0) return static_cast<std::uint32_t>(index);
-  throw o.error(key, "no material " + quoted(name) + "; the scene has " + list_of(materials.names()) +
+  throw o.error(key, "no material " + in_quotes(name) + "; the scene has " + list_of(materials.names()) +
                          suggestion(name, materials.names()));
 }
 
@@ -59,7 +59,7 @@ void read_materials(const SceneTable& root, SceneModel& model) {
   if (root.has("material")) {
     const SceneTable table = root.table("material");
     for (const std::string& name : table.keys()) {
-      Options o = validate(table.table(name), scene_section("material").parameters, "material " + quoted(name));
+      Options o = validate(table.table(name), scene_section("material").parameters, "material " + in_quotes(name));
       Material material{name, o.number("density"), contact_material(o), {}};
       if (o.has("attributes")) {
         for (const std::string& key : o.table("attributes").names()) {
@@ -92,10 +92,10 @@ void read_shapes(const SceneTable& root, SceneModel& model) {
       std::vector<std::string> types;
       for (const Variant& v : variants) types.push_back(v.type);
       throw Error{ErrorKind::usage, entry.location("type"),
-                  "unknown shape type " + quoted(type) + "; valid are " + list_of(types) + suggestion(type, types)};
+                  "unknown shape type " + in_quotes(type) + "; valid are " + list_of(types) + suggestion(type, types)};
     }
     static constexpr std::array<std::string_view, 1> kType{"type"};
-    Options o = validate(entry.without(kType), variant->members, "shape " + quoted(name));
+    Options o = validate(entry.without(kType), variant->members, "shape " + in_quotes(name));
     o.set_type(type);
     model.shape_options.push_back({name, std::move(o)});
   }
@@ -107,7 +107,7 @@ const NamedOptions& find_shape(const SceneModel& model, const Options& body) {
     names.push_back(shape.name);
     if (shape.name == body.text("shape")) return shape;
   }
-  throw body.error("shape", "no shape " + quoted(body.text("shape")) + "; the scene has " + list_of(names) +
+  throw body.error("shape", "no shape " + in_quotes(body.text("shape")) + "; the scene has " + list_of(names) +
                                 suggestion(body.text("shape"), names));
 }
 
@@ -158,7 +158,7 @@ void read_bodies(const SceneTable& root, SceneModel& model) {
     SceneBody entry = read_body(model, o);
     for (const SceneBody& other : model.bodies) {
       if (!entry.name.empty() && entry.name == other.name) {
-        throw o.error("name", "a body named " + quoted(entry.name) + " exists already; names must differ");
+        throw o.error("name", "a body named " + in_quotes(entry.name) + " exists already; names must differ");
       }
     }
     model.bodies.push_back(std::move(entry));
@@ -173,7 +173,7 @@ void check_section_names(const SceneDocument& document) {
   for (const std::string& key : document.root().keys()) {
     if (std::find(valid.begin(), valid.end(), key) != valid.end()) continue;
     throw Error{ErrorKind::usage, document.root().location(key),
-                "unknown section " + quoted(key) + "; valid are " + list_of(valid) + suggestion(key, valid)};
+                "unknown section " + in_quotes(key) + "; valid are " + list_of(valid) + suggestion(key, valid)};
   }
 }
 
