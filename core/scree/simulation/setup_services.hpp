@@ -33,6 +33,7 @@ class SetupServices final : public SceneServices {
   /// Refuses a simulation in which a part reads a column that nothing provides. @throws Error (usage).
   void check_attributes() const;
 
+  [[nodiscard]] std::string part_name() const override { return part_->name; }
   [[nodiscard]] const ElectricField& electric_field(std::string_view name) const override;
   [[nodiscard]] NamedBody body(std::string_view name) const override;
   [[nodiscard]] std::uint32_t material(std::string_view name) const override;

@@ -43,7 +43,6 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
 }
 
 void Simulation::State::setup_parts() {
-  services->provide_from_scene();
   const auto setup = [&](const auto& part) {
     services->serve(part.info);
     guarded(part.info, ErrorKind::usage, [&] { part.plugin->setup(*services); });
@@ -57,6 +56,8 @@ void Simulation::State::setup_parts() {
     services->serve(part.info);
     guarded(part.info, ErrorKind::usage, [&] { part.plugin->setup(*services, settings.results); });
   }
+  // After the parts, so that a column has the unit and the initial value that its reader states.
+  services->provide_from_scene();
   services->check_attributes();
 }
 
