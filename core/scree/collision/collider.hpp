@@ -13,12 +13,13 @@ namespace scree {
 /// Index of a collider in a ColliderView.
 using ColliderIndex = std::uint32_t;
 
-/// Spans of equal length, one entry per primitive per body, in order of body,
-/// then primitive.
+/// Spans of equal length, one entry per colliding primitive per body, in order
+/// of body, then primitive.
 struct ColliderView {
   std::span<const std::uint64_t> key;        ///< stable: the same primitive of the same body has it in every step
   std::span<const BodyIndex> body;           ///< index into the BodyView
   std::span<const std::uint32_t> primitive;  ///< index into ShapeSet::primitives()
+  std::span<const std::uint32_t> ordinal;    ///< of the primitive within its shape, as Contact::primitive_a counts
   std::span<const Pose> pose;                ///< of the primitive's frame in the world [m]
   std::span<const Aabb> box;                 ///< tight bounds grown by what can happen within the step [m], world
   std::span<const char> movable;             ///< 1 for primitives of dynamic bodies

@@ -1,0 +1,147 @@
+#include "scree/collision/collider_set.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "scree/base/require.hpp"
+#include "scree/parallel/executor.hpp"
+
+namespace scree {
+namespace {
+
+constexpr std::size_t kBodiesPerChunk = 2048;
+/// Low bits of a collider's key hold the ordinal of the primitive.
+constexpr unsigned kOrdinalBits = 16;
+
+ColliderMotion motion_of(const Primitive& primitive, const Pose& pose, const Vec3& body_centre, const Vec3& velocity,
+                         const Vec3& spin) {
+  ColliderMotion m;
+  m.kind = primitive.kind;
+  m.centre = pose.position;
+  m.radius = primitive.bounding_radius;
+  m.velocity = velocity + cross(spin, pose.position - body_centre);
+  if (primitive.kind != ShapeKind::sphere) {
+    m.spin = spin;
+    m.turn_radius = primitive.bounding_radius;
+  }
+  return m;
+}
+
+/// The tight box grown by turning (never beyond the bounding sphere), then swept
+/// along the motion of its centre, plus this collider's half of the slack.
+Aabb swept_box(const Aabb& tight, const ColliderMotion& m, const ReachRule& rule) {
+  Aabb box = tight;
+  const double turn = rule.dt * norm(m.spin) * m.turn_radius;
+  if (turn > 0.0) {
+    const Aabb grown = expanded(tight, turn);
+    const Aabb ball = expanded(Aabb{m.centre, m.centre}, m.radius);
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = std::max(grown.lower[axis], std::min(ball.lower[axis], tight.lower[axis]));
+      box.upper[axis] = std::min(grown.upper[axis], std::max(ball.upper[axis], tight.upper[axis]));
+    }
+  }
+  const Vec3 way = rule.dt * m.velocity;
+  return expanded(merged(box, Aabb{box.lower + way, box.upper + way}), 0.5 * rule.slack * m.radius);
+}
+
+}  // namespace
+
+double reach_of(const ColliderMotion& a, const ColliderMotion& b, const ReachRule& rule) {
+  const bool a_smaller = a.radius <= b.radius;
+  const ColliderMotion& small = a_smaller ? a : b;
+  const ColliderMotion& large = a_smaller ? b : a;
+  const Vec3 approach = small.velocity - large.velocity - cross(large.spin, small.centre - large.centre);
+  double speed = norm(approach);
+  if (small.turn_radius > 0.0) speed += norm(small.spin - large.spin) * small.turn_radius;
+  return rule.dt * speed + rule.slack * small.radius;
+}
+
+void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
+  const auto primitives = shapes.primitives();
+  first_.resize(bodies.size() + 1);
+  std::uint32_t total = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    first_[i] = total;
+    const Shape& shape = shapes.shapes()[bodies.shape[i]];
+    for (std::uint32_t k = 0; k < shape.primitive_count; ++k) total += primitives[shape.first_primitive + k].collides;
+  }
+  first_[bodies.size()] = total;
+  key_.resize(total);
+  body_.resize(total);
+  primitive_.resize(total);
+  ordinal_.resize(total);
+  pose_.resize(total);
+  box_.resize(total);
+  tight_.resize(total);
+  movable_.resize(total);
+  motion_.resize(total);
+}
+
+void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity,
+                        const Vec3& spin, const ReachRule& rule) {
+  const Shape& shape = shapes.shapes()[bodies.shape[i]];
+  const Pose body_pose{bodies.position[i], bodies.orientation[i]};
+  std::uint32_t at = first_[i];
+  for (std::uint32_t k = 0; k < shape.primitive_count; ++k) {
+    const Primitive& primitive = shapes.primitives()[shape.first_primitive + k];
+    if (!primitive.collides) continue;
+    key_[at] = (bodies.id[i] << kOrdinalBits) | k;
+    body_[at] = i;
+    primitive_[at] = shape.first_primitive + k;
+    ordinal_[at] = k;
+    pose_[at] = body_pose * primitive.local;
+    movable_[at] = bodies.motion[i] == Motion::dynamic;
+    motion_[at] = motion_of(primitive, pose_[at], body_pose.position, velocity, spin);
+    tight_[at] = bounds(shapes, primitive, pose_[at]);
+    box_[at] = primitive.kind == ShapeKind::plane ? Aabb::everywhere() : swept_box(tight_[at], motion_[at], rule);
+    ++at;
+  }
+}
+
+void ColliderSet::separate_unbounded() {
+  unbounded_.clear();
+  bounded_.clear();
+  all_bounded_ = true;
+  const auto n = static_cast<ColliderIndex>(size());
+  for (ColliderIndex i = 0; i < n; ++i) {
+    if (motion_[i].kind == ShapeKind::plane) unbounded_.push_back(i);
+    // A body that diverged has a box of NaN; it meets nothing, and the stepper reports it.
+    if (!is_bounded(box_[i])) all_bounded_ = false;
+  }
+  if (all_bounded_) return;
+  for (ColliderIndex i = 0; i < n; ++i) {
+    if (is_bounded(box_[i])) bounded_.push_back(i);
+  }
+  bounded_key_.resize(bounded_.size());
+  bounded_box_.resize(bounded_.size());
+  bounded_movable_.resize(bounded_.size());
+  bounded_owner_.resize(bounded_.size());
+  for (std::size_t k = 0; k < bounded_.size(); ++k) {
+    bounded_key_[k] = key_[bounded_[k]];
+    bounded_box_[k] = box_[bounded_[k]];
+    bounded_movable_[k] = movable_[bounded_[k]];
+    bounded_owner_[k] = body_[bounded_[k]];
+  }
+}
+
+void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::span<const Vec3> velocity,
+                        std::span<const Vec3> angular_velocity, const ReachRule& rule, const Executor& executor) {
+  SCREE_REQUIRE(velocity.size() == bodies.size() && angular_velocity.size() == bodies.size(),
+                "collision needs one velocity and one angular velocity per body");
+  count(shapes, bodies);
+  executor.for_chunks(bodies.size(), kBodiesPerChunk, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      place(shapes, bodies, static_cast<BodyIndex>(i), velocity[i], angular_velocity[i], rule);
+    }
+  });
+  separate_unbounded();
+}
+
+ColliderView ColliderSet::view() const { return {key_, body_, primitive_, ordinal_, pose_, box_, movable_}; }
+
+BoxView ColliderSet::bounded() const {
+  if (all_bounded_) return {key_, box_, movable_, body_};
+  return {bounded_key_, bounded_box_, bounded_movable_, bounded_owner_};
+}
+
+}  // namespace scree

@@ -1,0 +1,84 @@
+// ColliderSet: places the primitives of all bodies in the world and says how
+// far each of them can come within the step.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scree/collision/collider.hpp"
+#include "scree/interfaces/broad_phase.hpp"
+
+namespace scree {
+
+class Executor;
+
+/// How a collider moves, as the bound on its approach to another one needs it.
+/// A sphere's own spin does not move its surface and is left out.
+struct ColliderMotion {
+  Vec3 centre;               ///< of the bounding sphere [m], world
+  double radius = 0.0;       ///< of the bounding sphere [m]; infinite for a plane
+  Vec3 velocity;             ///< of the centre [m/s], world
+  Vec3 spin;                 ///< [rad/s], world; zero for a sphere
+  double turn_radius = 0.0;  ///< farthest point from the centre that the spin moves [m]
+  ShapeKind kind = ShapeKind::sphere;
+};
+
+/// What decides how far ahead contacts are sought.
+struct ReachRule {
+  double dt = 0.0;     ///< [s]
+  double slack = 0.0;  ///< added to the motion, in bounding radii of the smaller collider [1]
+};
+
+/// A bound on how much the gap of two colliders can shrink within the step [m]:
+/// relative velocity at the smaller one, plus what their relative spin does over
+/// its size, times dt; plus the slack. Bodies that move together pay nothing.
+[[nodiscard]] double reach_of(const ColliderMotion& a, const ColliderMotion& b, const ReachRule& rule);
+
+/// The colliders of one step. All buffers are kept between steps.
+class ColliderSet {
+ public:
+  /// Places all colliding primitives. `velocity` [m/s] and `angular_velocity`
+  /// [rad/s], world, one per body, are those expected over the step.
+  void build(const ShapeSet& shapes, const BodyView& bodies, std::span<const Vec3> velocity,
+             std::span<const Vec3> angular_velocity, const ReachRule& rule, const Executor& executor);
+
+  [[nodiscard]] ColliderView view() const;
+  [[nodiscard]] std::size_t size() const { return key_.size(); }
+  [[nodiscard]] std::span<const ColliderMotion> motion() const { return motion_; }
+  /// Boxes without the step's motion [m], world.
+  [[nodiscard]] std::span<const Aabb> tight_box() const { return tight_; }
+
+  /// The bounded colliders, for the broad phase. Their indices are translated
+  /// by bounded_index().
+  [[nodiscard]] BoxView bounded() const;
+  [[nodiscard]] ColliderIndex bounded_index(ColliderIndex i) const { return all_bounded_ ? i : bounded_[i]; }
+  /// Colliders without bounds: planes.
+  [[nodiscard]] std::span<const ColliderIndex> unbounded() const { return unbounded_; }
+
+ private:
+  void count(const ShapeSet& shapes, const BodyView& bodies);
+  void place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity, const Vec3& spin,
+             const ReachRule& rule);
+  void separate_unbounded();
+
+  std::vector<std::uint32_t> first_;  // collider of each body, one more at the end
+  std::vector<std::uint64_t> key_;
+  std::vector<BodyIndex> body_;
+  std::vector<std::uint32_t> primitive_;
+  std::vector<std::uint32_t> ordinal_;
+  std::vector<Pose> pose_;
+  std::vector<Aabb> box_;
+  std::vector<Aabb> tight_;
+  std::vector<char> movable_;
+  std::vector<ColliderMotion> motion_;
+
+  bool all_bounded_ = true;
+  std::vector<ColliderIndex> unbounded_;
+  std::vector<ColliderIndex> bounded_;
+  std::vector<std::uint64_t> bounded_key_;
+  std::vector<Aabb> bounded_box_;
+  std::vector<char> bounded_movable_;
+  std::vector<std::uint32_t> bounded_owner_;
+};
+
+}  // namespace scree

@@ -1,0 +1,178 @@
+#include "scree/collision/collision_pipeline.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "scree/base/error.hpp"
+#include "scree/parallel/executor.hpp"
+
+namespace scree {
+namespace {
+
+constexpr std::size_t kCandidatesPerChunk = 8192;
+constexpr std::size_t kPairsPerChunk = 1024;
+
+std::size_t index(ShapeKind kind) { return static_cast<std::size_t>(kind); }
+
+Error unsupported(ShapeKind a, ShapeKind b) {
+  return Error{ErrorKind::usage, std::string{"no narrow phase of the scene computes contacts of "} + to_string(a) +
+                                     " against " + to_string(b) +
+                                     "; add one that does to its list of narrow phases, or give one of them "
+                                     "collides = false."};
+}
+
+/// True when two bounded colliders may come within `reach` of each other.
+bool can_meet(const ColliderMotion& a, const ColliderMotion& b, const Aabb& tight_a, const Aabb& tight_b,
+              double reach) {
+  const double radii = a.radius + b.radius + reach;
+  if (squared_norm(b.centre - a.centre) > radii * radii) return false;
+  if (a.kind == ShapeKind::sphere && b.kind == ShapeKind::sphere) return true;
+  return overlap(expanded(tight_a, reach), tight_b);
+}
+
+}  // namespace
+
+CollisionPipeline::CollisionPipeline(const ShapeSet& shapes, BroadPhase& broad, std::vector<NarrowPhase*> chain,
+                                     const Executor& executor, const CollisionSettings& settings)
+    : shapes_{shapes}, broad_{broad}, chain_{std::move(chain)}, executor_{executor}, settings_{settings} {
+  for (std::size_t a = 0; a < kShapeKindCount; ++a) {
+    for (std::size_t b = 0; b < kShapeKindCount; ++b) {
+      const auto first = std::find_if(chain_.begin(), chain_.end(), [&](const NarrowPhase* phase) {
+        return phase->supports(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
+      });
+      phase_[a][b] = first == chain_.end() ? -1 : static_cast<int>(first - chain_.begin());
+    }
+  }
+}
+
+void CollisionPipeline::bind_new_shapes() {
+  const std::size_t count = shapes_.primitives().size();
+  if (count == bound_primitives_) return;
+  for (NarrowPhase* phase : chain_) phase->bind(shapes_, bound_primitives_);
+  bound_primitives_ = count;
+}
+
+void CollisionPipeline::check_support(const BodyView& bodies) const {
+  std::array<bool, kShapeKindCount> present{};
+  std::array<bool, kShapeKindCount> moving{};
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const Primitive& primitive : shapes_.primitives(shapes_.shapes()[bodies.shape[i]])) {
+      if (!primitive.collides) continue;
+      present[index(primitive.kind)] = true;
+      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive.kind)] = true;
+    }
+  }
+  for (std::size_t a = 0; a < kShapeKindCount; ++a) {
+    for (std::size_t b = 0; b < kShapeKindCount; ++b) {
+      // Planes never meet planes: both are half spaces without an edge.
+      const bool planes = a == index(ShapeKind::plane) && b == index(ShapeKind::plane);
+      if (moving[a] && present[b] && !planes && phase_[a][b] < 0) {
+        throw unsupported(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
+      }
+    }
+  }
+}
+
+void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const {
+  const ColliderView view = colliders_.view();
+  const auto motion = colliders_.motion();
+  const auto tight = colliders_.tight_box();
+  for (std::size_t k = first; k < last; ++k) {
+    const ColliderIndex one = colliders_.bounded_index(candidates_[k].a);
+    const ColliderIndex two = colliders_.bounded_index(candidates_[k].b);
+    const ColliderIndex a = std::min(one, two);
+    const ColliderIndex b = std::max(one, two);
+    if (!overlap(view.box[a], view.box[b])) continue;
+    if (view.body[a] == view.body[b] || (view.movable[a] == 0 && view.movable[b] == 0)) continue;
+    const double reach = reach_of(motion[a], motion[b], rule_);
+    if (can_meet(motion[a], motion[b], tight[a], tight[b], reach)) out.push_back({a, b, reach});
+  }
+}
+
+void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::vector<ColliderPair>& out) const {
+  const ColliderView view = colliders_.view();
+  const auto motion = colliders_.motion();
+  const Pose& pose = view.pose[plane];
+  const Vec3 normal = rotate(pose.orientation, {0, 0, 1});
+  for (ColliderIndex other = 0; other < view.size(); ++other) {
+    if (view.movable[other] == 0 && view.movable[plane] == 0) continue;
+    if (motion[other].kind == ShapeKind::plane || view.body[other] == view.body[plane]) continue;
+    const double reach = reach_of(motion[other], motion[plane], rule_);
+    const double height = dot(normal, motion[other].centre - pose.position);
+    // Written so that a collider with NaN meets nothing.
+    if (!(height - motion[other].radius <= reach)) continue;
+    out.push_back({std::min(plane, other), std::max(plane, other), reach});
+  }
+}
+
+void CollisionPipeline::find_pairs(std::size_t body_count) {
+  candidates_.clear();
+  broad_.find_pairs(colliders_.bounded(), executor_, candidates_);
+  counts_.candidates = candidates_.size();
+
+  const std::size_t chunks = Executor::chunk_count(candidates_.size(), kCandidatesPerChunk);
+  const auto planes = colliders_.unbounded();
+  const std::size_t parts = chunks + planes.size();
+  if (chunk_pairs_.size() < parts) chunk_pairs_.resize(parts);
+  executor_.for_chunks(parts, 1, [&](std::size_t part, std::size_t) {
+    std::vector<ColliderPair>& out = chunk_pairs_[part];
+    out.clear();
+    if (part >= chunks) return pair_unbounded(planes[part - chunks], out);
+    const std::size_t first = part * kCandidatesPerChunk;
+    keep_meeting(first, std::min(candidates_.size(), first + kCandidatesPerChunk), out);
+  });
+  pairs_ = sorter_.sort(std::span{chunk_pairs_}.first(parts), colliders_.view().body, body_count, executor_);
+  counts_.pairs = pairs_.size();
+}
+
+void CollisionPipeline::collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const {
+  const ColliderView view = colliders_.view();
+  const auto motion = colliders_.motion();
+  const auto phase_of = [&](const ColliderPair& pair) {
+    return phase_[index(motion[pair.a].kind)][index(motion[pair.b].kind)];
+  };
+  // Runs of pairs of the same phase, so that contacts stay in the order of pairs.
+  for (std::size_t first = 0; first < pairs.size();) {
+    const int phase = phase_of(pairs[first]);
+    if (phase < 0) throw unsupported(motion[pairs[first].a].kind, motion[pairs[first].b].kind);
+    std::size_t last = first + 1;
+    while (last < pairs.size() && phase_of(pairs[last]) == phase) ++last;
+    chain_[static_cast<std::size_t>(phase)]->collide(view, pairs.subspan(first, last - first), out);
+    first = last;
+  }
+}
+
+void CollisionPipeline::find_contacts() {
+  const std::size_t chunks = Executor::chunk_count(pairs_.size(), kPairsPerChunk);
+  if (chunk_contacts_.size() < chunks) chunk_contacts_.resize(chunks);
+  executor_.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
+    chunk_contacts_[chunk].clear();
+    const std::size_t first = chunk * kPairsPerChunk;
+    collide(pairs_.subspan(first, std::min(kPairsPerChunk, pairs_.size() - first)), chunk_contacts_[chunk]);
+  });
+
+  chunk_offset_.resize(chunks + 1);
+  chunk_offset_[0] = 0;
+  for (std::size_t k = 0; k < chunks; ++k) chunk_offset_[k + 1] = chunk_offset_[k] + chunk_contacts_[k].size();
+  contacts_.resize(chunk_offset_[chunks]);
+  executor_.for_chunks(chunks, 8, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      std::copy(chunk_contacts_[k].begin(), chunk_contacts_[k].end(),
+                contacts_.begin() + static_cast<std::ptrdiff_t>(chunk_offset_[k]));
+    }
+  });
+  counts_.contacts = contacts_.size();
+}
+
+std::span<const Contact> CollisionPipeline::find(const BodyView& bodies, std::span<const Vec3> velocity,
+                                                 std::span<const Vec3> angular_velocity, double dt) {
+  bind_new_shapes();
+  rule_ = {dt, settings_.reach_slack};
+  colliders_.build(shapes_, bodies, velocity, angular_velocity, rule_, executor_);
+  counts_ = {colliders_.size(), 0, 0, 0};
+  find_pairs(bodies.size());
+  find_contacts();
+  return contacts_;
+}
+
+}  // namespace scree

@@ -1,0 +1,88 @@
+// CollisionPipeline: from bodies to contacts, whatever phases the scene chose.
+//
+// One call a step: place colliders, ask the broad phase for candidates, drop
+// those that cannot meet within the step, sort, and hand the rest to the chain
+// of narrow phases. The result does not depend on the broad phase or on the
+// number of threads.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "scree/collision/collider_set.hpp"
+#include "scree/collision/contact.hpp"
+#include "scree/collision/pair_sorter.hpp"
+#include "scree/interfaces/broad_phase.hpp"
+#include "scree/interfaces/narrow_phase.hpp"
+
+namespace scree {
+
+class Executor;
+
+/// What the last step of a CollisionPipeline went through.
+struct CollisionCounts {
+  std::size_t colliders = 0;
+  std::size_t candidates = 0;  ///< pairs that the broad phase reported
+  std::size_t pairs = 0;       ///< pairs given to narrow phases
+  std::size_t contacts = 0;
+};
+
+/// Settings of the pipeline.
+struct CollisionSettings {
+  /// Contacts are sought this much beyond what motion needs, in bounding radii
+  /// of the smaller collider [1]; keeps resting contacts from flickering.
+  double reach_slack = 1e-3;
+};
+
+/// Finds all contacts of a step. Shapes, phases and executor outlive it.
+class CollisionPipeline {
+ public:
+  /// Each pair of kinds goes to the first phase of `chain` that supports it.
+  CollisionPipeline(const ShapeSet& shapes, BroadPhase& broad, std::vector<NarrowPhase*> chain,
+                    const Executor& executor, const CollisionSettings& settings = {});
+
+  /// Contacts with a gap below what the pair can close within `dt` [s] at these
+  /// velocities [m/s] and angular velocities [rad/s] (one per body, world).
+  /// Sorted by (body a, body b, primitive a, primitive b, feature), the same
+  /// bits for any number of threads. Valid until the next call.
+  /// @throws Error (usage) when two kinds meet that no phase supports.
+  std::span<const Contact> find(const BodyView& bodies, std::span<const Vec3> velocity,
+                                std::span<const Vec3> angular_velocity, double dt);
+
+  /// Checks that every two kinds of which one may move are supported.
+  /// @throws Error (usage) naming the two kinds.
+  void check_support(const BodyView& bodies) const;
+
+  [[nodiscard]] const CollisionCounts& counts() const { return counts_; }
+
+ private:
+  void bind_new_shapes();
+  void keep_meeting(std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const;
+  void pair_unbounded(ColliderIndex plane, std::vector<ColliderPair>& out) const;
+  void find_pairs(std::size_t body_count);
+  void collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const;
+  void find_contacts();
+
+  const ShapeSet& shapes_;
+  BroadPhase& broad_;
+  std::vector<NarrowPhase*> chain_;
+  const Executor& executor_;
+  CollisionSettings settings_;
+  /// Phase of the chain for two kinds, or -1.
+  std::array<std::array<int, kShapeKindCount>, kShapeKindCount> phase_{};
+  std::size_t bound_primitives_ = 0;
+
+  ReachRule rule_;
+  ColliderSet colliders_;
+  std::vector<CandidatePair> candidates_;
+  std::vector<std::vector<ColliderPair>> chunk_pairs_;
+  PairSorter sorter_;
+  std::span<const ColliderPair> pairs_;
+  std::vector<ContactBuffer> chunk_contacts_;
+  std::vector<std::size_t> chunk_offset_;
+  std::vector<Contact> contacts_;
+  CollisionCounts counts_;
+};
+
+}  // namespace scree
