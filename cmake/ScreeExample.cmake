@@ -3,7 +3,7 @@
 # The check runs the scene as a user would, reads the results and states the law that it tests.
 function(scree_add_example name)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABELS" ${ARGN})
-  if(NOT SCREE_TESTS)
+  if(NOT SCREE_TESTS OR NOT TARGET scree)
     return()
   endif()
   if(NOT arg_TIMEOUT)
