@@ -42,6 +42,8 @@ struct StepSummary {
   double mean_penetration = 0.0;  ///< mean overlap over closed contacts,
                                   ///< relative to the smaller body's radius [1]
   double max_penetration = 0.0;   ///< [m]
+  int friction_solves = 1;        ///< CCPs solved for exact Coulomb friction
+  double friction_error = 0.0;    ///< what exact Coulomb friction still lacks [m/s]
 };
 
 /// A time-stepping scheme.

@@ -1,0 +1,206 @@
+#include "dvi.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "rotation.hpp"
+#include "scree/interfaces/plugin_library.hpp"
+#include "scree/parallel/executor.hpp"
+#include "scree/state/state_io.hpp"
+
+namespace scree {
+
+namespace {
+constexpr std::size_t kGrain = 2048;
+}
+
+Dvi::Dvi(const Options& options)
+    : Dvi{DviOptions{.limits = {options.number("recovery_speed"), options.number("min_bounce_speed")},
+                     .coulomb = options.text("friction") == "coulomb",
+                     .coulomb_limits = {options.number("friction_tolerance"),
+                                        static_cast<int>(options.integer("friction_solves"))},
+                     .gyroscopic = options.boolean("gyroscopic"),
+                     .warm_start = options.boolean("warm_start")}} {}
+
+std::vector<Parameter> Dvi::parameters() {
+  return {
+      Parameter::number("recovery_speed", "m/s", "greatest speed at which overlap is undone")
+          .by_default(0.15)
+          .at_least(0.0),
+      Parameter::number("min_bounce_speed", "m/s", "impacts slower than this do not bounce")
+          .by_default(0.1)
+          .at_least(0.0),
+      Parameter::choice("friction", {"associated", "coulomb"},
+                        "convex relaxation (sliding contacts float by mu h |u_t|), or exact Coulomb friction")
+          .by_default("associated"),
+      Parameter::number("friction_tolerance", "m/s", "coulomb: error of the sliding speed times mu to stop at")
+          .by_default(1e-3)
+          .above(0.0),
+      Parameter::integer("friction_solves", "coulomb: greatest number of CCPs solved in a step")
+          .by_default(50)
+          .at_least(1.0),
+      Parameter::boolean("gyroscopic", "gyroscopic torque of bodies whose moments of inertia differ").by_default(false),
+      Parameter::boolean("warm_start", "start the solver from the impulses of the last step").by_default(true),
+  };
+}
+
+StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double time, double dt) {
+  free_motion(services, bodies.view, time, dt);
+  const std::span<const Contact> found = services.contacts(bodies.view, velocity_, angular_velocity_, dt);
+  assembly_.build({bodies.view, velocity_, angular_velocity_}, found, services.materials(), options_.limits, dt,
+                  services.executor());
+  StepSummary summary;
+  summary.contacts = assembly_.contacts().size();
+  measure_overlap(bodies.view, summary);
+  summary.solve = solve(services, summary, dt);
+  move(bodies, services.executor(), dt);
+  return summary;
+}
+
+void Dvi::free_motion(StepServices& services, const BodyView& bodies, double time, double dt) {
+  const std::size_t n = bodies.size();
+  force_.resize(n);
+  torque_.resize(n);
+  velocity_.resize(n);
+  angular_velocity_.resize(n);
+  gyroscopic_.assign(options_.gyroscopic ? n : 0, Vec3{});
+  services.forces(bodies, time, {force_, torque_});
+  services.executor().for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      velocity_[i] = bodies.velocity[i];
+      angular_velocity_[i] = bodies.angular_velocity[i];
+      if (bodies.motion[i] != Motion::dynamic) continue;
+      const Quat& q = bodies.orientation[i];
+      const Vec3 j = bodies.inertia[i];
+      velocity_[i] += (dt / bodies.mass[i]) * force_[i];
+      if (torque_[i] != Vec3{}) {
+        const Vec3 t = rotate_back(q, torque_[i]);
+        angular_velocity_[i] += rotate(q, dt * Vec3{t.x / j.x, t.y / j.y, t.z / j.z});
+      }
+      if (options_.gyroscopic) {
+        gyroscopic_[i] = rotate(q, dvi::gyroscopic_change(j, rotate_back(q, bodies.angular_velocity[i]), dt));
+        angular_velocity_[i] += gyroscopic_[i];
+      }
+    }
+  });
+}
+
+void Dvi::recall(const CcpProblem& problem, double dt) {
+  gamma_.assign(problem.rows(), 0.0);
+  if (!options_.warm_start || memory_.size() == 0) return;
+  world_impulse_.resize(problem.blocks());
+  memory_.recall(assembly_.keys(), world_impulse_);
+  // A resting contact's impulse goes with the step.
+  const double scale = dt / memory_dt_;
+  for (std::size_t k = 0; k < world_impulse_.size(); ++k) {
+    const std::size_t i = assembly_.block_of()[k];
+    store_block(gamma_, i, in_frame(problem.contacts[i], scale * world_impulse_[k]));
+  }
+}
+
+SolveSummary Dvi::solve(StepServices& services, StepSummary& summary, double dt) {
+  const CcpProblem problem = assembly_.problem();
+  recall(problem, dt);
+  SolveSummary solved;
+  if (problem.blocks() > 0) {
+    delassus_.bind(problem, &services.executor());
+    if (options_.coulomb) {
+      const dvi::CoulombSummary outer = coulomb_.solve(services, problem, delassus_, options_.coulomb_limits, gamma_);
+      solved = outer.solve;
+      summary.friction_solves = outer.solves;
+      summary.friction_error = outer.error;
+    } else {
+      solved = services.solve_ccp(problem, gamma_);
+    }
+    w_.resize(problem.bodies());
+    delassus_.body_velocities(gamma_, w_);
+    for (std::size_t k = 0; k < w_.size(); ++k) {
+      const BodyIndex body = assembly_.bodies()[k];
+      velocity_[body] += w_[k].linear;
+      angular_velocity_[body] += w_[k].angular;
+    }
+  }
+  keep_results(problem, dt);
+  return solved;
+}
+
+void Dvi::keep_results(const CcpProblem& problem, double dt) {
+  const std::size_t m = problem.blocks();
+  impulse_.resize(m);
+  before_.resize(m);
+  after_.resize(m);
+  world_impulse_.resize(m);
+  for (std::size_t k = 0; k < m; ++k) {
+    const std::size_t i = assembly_.block_of()[k];
+    const CcpContact& c = problem.contacts[i];
+    impulse_[k] = load_block(gamma_, i);
+    before_[k] = load_block(assembly_.free_velocity(), i);
+    after_[k] = before_[k] + relative_velocity(c, w_[c.a], w_[c.b]);
+    world_impulse_[k] = in_world(c, impulse_[k]);
+  }
+  if (!options_.warm_start) return;
+  memory_.store(assembly_.keys(), world_impulse_);
+  memory_dt_ = dt;
+}
+
+void Dvi::measure_overlap(const BodyView& bodies, StepSummary& summary) const {
+  double sum = 0.0;
+  std::size_t closed = 0;
+  for (const Contact& c : assembly_.contacts()) {
+    if (c.gap > 0.0) continue;
+    const auto size_of = [&](BodyIndex i) {
+      return bodies.motion[i] == Motion::dynamic ? bodies.radius[i] : std::numeric_limits<double>::infinity();
+    };
+    sum -= c.gap / std::min(size_of(c.a), size_of(c.b));
+    summary.max_penetration = std::max(summary.max_penetration, -c.gap);
+    ++closed;
+  }
+  summary.mean_penetration = closed > 0 ? sum / static_cast<double>(closed) : 0.0;
+}
+
+void Dvi::move(const BodyState& bodies, const Executor& executor, double dt) const {
+  executor.for_chunks(velocity_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (bodies.view.motion[i] == Motion::fixed) continue;
+      Vec3 w = angular_velocity_[i];
+      bodies.position[i] += dt * velocity_[i];
+      if (options_.gyroscopic && gyroscopic_[i] != Vec3{}) {
+        // Turn by the velocity in the middle of the gyroscopic change; the body's own velocity turns with it.
+        const Vec3 angle = dvi::cayley_angle(dt * (w - 0.5 * gyroscopic_[i]));
+        bodies.orientation[i] = dvi::turned(bodies.orientation[i], angle);
+        w = rotate(from_rotation_vector(angle), w);
+      } else if (w != Vec3{}) {
+        bodies.orientation[i] = dvi::turned(bodies.orientation[i], dt * w);
+      }
+      if (bodies.view.motion[i] != Motion::dynamic) continue;
+      bodies.velocity[i] = velocity_[i];
+      bodies.angular_velocity[i] = w;
+    }
+  });
+}
+
+ContactView Dvi::contacts() const { return {assembly_.contacts(), impulse_, before_, after_}; }
+
+void Dvi::save(StateWriter& out) const {
+  memory_.save(out);
+  out.write("time_step", memory_dt_);
+}
+
+void Dvi::load(const StateReader& in) {
+  memory_.load(in);
+  memory_dt_ = in.number("time_step");
+}
+
+}  // namespace scree
+
+namespace {
+
+void list(scree::PluginList& plugins) {
+  plugins.add<scree::TimeStepper, scree::Dvi>(
+      "dvi", "Non-smooth dynamics: hard contacts, large steps, one cone complementarity problem a step.",
+      scree::Dvi::parameters());
+}
+
+}  // namespace
+
+extern "C" SCREE_EXPORT const scree::PluginLibrary scree_plugin_library{scree::describe_library("dvi", "1.0.0", &list)};

@@ -1,0 +1,65 @@
+// DVI time stepping: semi-implicit, velocity and impulse, one cone
+// complementarity problem a step (Critelli et al., eqs 1-9; Tasora & Anitescu
+// 2010, 2011).
+//
+//     v1 = v0 + h M^-1 f(q0, v0) + M^-1 D gamma,   q1 = Lambda(q0, v1, h)
+//
+// with gamma from ContactAssembly's problem. Lambda is the exponential map on
+// orientations.
+#pragma once
+
+#include <vector>
+
+#include "contact_assembly.hpp"
+#include "coulomb.hpp"
+#include "scree/config/options.hpp"
+#include "scree/interfaces/time_stepper.hpp"
+
+namespace scree {
+
+/// What a scene can say about dvi.
+struct DviOptions {
+  dvi::ContactLimits limits = {};
+  bool coulomb = false;  ///< exact Coulomb friction in place of the associated problem
+  dvi::CoulombLimits coulomb_limits = {};
+  bool gyroscopic = false;  ///< gyroscopic torque of bodies with three moments
+  bool warm_start = true;   ///< start from the impulses of the last step
+};
+
+/// The stepper. No allocation in a step once its workspace has its size.
+class Dvi final : public TimeStepper {
+ public:
+  explicit Dvi(const DviOptions& options) : options_{options} {}
+  explicit Dvi(const Options& options);
+  static std::vector<Parameter> parameters();
+
+  StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) override;
+  [[nodiscard]] ContactView contacts() const override;
+  void save(StateWriter& out) const override;
+  void load(const StateReader& in) override;
+
+ private:
+  void free_motion(StepServices& services, const BodyView& bodies, double time, double dt);
+  SolveSummary solve(StepServices& services, StepSummary& summary, double dt);
+  void recall(const CcpProblem& problem, double dt);
+  void keep_results(const CcpProblem& problem, double dt);
+  void measure_overlap(const BodyView& bodies, StepSummary& summary) const;
+  void move(const BodyState& bodies, const Executor& executor, double dt) const;
+
+  DviOptions options_;
+  dvi::ContactAssembly assembly_;
+  dvi::CoulombFixedPoint coulomb_;
+  DelassusOperator delassus_;
+
+  std::vector<Vec3> force_, torque_;
+  std::vector<Vec3> velocity_, angular_velocity_;  ///< of all bodies: free, then with impulses
+  std::vector<Vec3> gyroscopic_;                   ///< change by gyroscopic torque, world; empty when off
+  std::vector<double> gamma_, change_;
+  std::vector<Twist> w_;
+
+  std::vector<Vec3> impulse_, before_, after_, world_impulse_;  ///< per contact, as found
+  ContactMemory memory_;
+  double memory_dt_ = 0.0;  ///< step that the remembered impulses belong to [s]
+};
+
+}  // namespace scree
