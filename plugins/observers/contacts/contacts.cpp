@@ -13,10 +13,14 @@ namespace {
 class Contacts final : public Observer {
  public:
   explicit Contacts(const Options& options)
-      : interval_{options.number("interval")}, loaded_only_{options.boolean("loaded_only")}, file_{options.text("file")} {}
+      : interval_{options.number("interval")},
+        loaded_only_{options.boolean("loaded_only")},
+        file_{options.text("file")} {}
 
   static std::vector<Parameter> parameters() {
-    return {Parameter::number("interval", "s", "simulated time between looks; 0 for every step").at_least(0.0).by_default(0.0),
+    return {Parameter::number("interval", "s", "simulated time between looks; 0 for every step")
+                .at_least(0.0)
+                .by_default(0.0),
             Parameter::boolean("loaded_only", "leave out contacts without an impulse").by_default(true),
             Parameter::text("file", "name of the table in the result folder").by_default("contacts.csv")};
   }
@@ -24,11 +28,21 @@ class Contacts final : public Observer {
   void setup(SceneServices& services, const std::filesystem::path& results) override {
     every_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(interval_ / services.time_step())));
     if (results.empty()) return;
-    table_.emplace(results / file_, std::vector<CsvColumn>{{"time", "s"}, {"body_a", ""}, {"body_b", ""},
-                                                           {"x", "m"}, {"y", "m"}, {"z", "m"},
-                                                           {"nx", ""}, {"ny", ""}, {"nz", ""}, {"gap", "m"},
-                                                           {"impulse_x", "N s"}, {"impulse_y", "N s"}, {"impulse_z", "N s"},
-                                                           {"impulse_normal", "N s"}, {"slip_speed", "m/s"}});
+    table_.emplace(results / file_, std::vector<CsvColumn>{{"time", "s"},
+                                                           {"body_a", ""},
+                                                           {"body_b", ""},
+                                                           {"x", "m"},
+                                                           {"y", "m"},
+                                                           {"z", "m"},
+                                                           {"nx", ""},
+                                                           {"ny", ""},
+                                                           {"nz", ""},
+                                                           {"gap", "m"},
+                                                           {"impulse_x", "N s"},
+                                                           {"impulse_y", "N s"},
+                                                           {"impulse_z", "N s"},
+                                                           {"impulse_normal", "N s"},
+                                                           {"slip_speed", "m/s"}});
   }
 
   void observe(const Observation& now, Attributes&) override {

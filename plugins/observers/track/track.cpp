@@ -19,7 +19,9 @@ class Track final : public Observer {
   static std::vector<Parameter> parameters() {
     return {Parameter::texts("bodies", "names of scene bodies; empty for every dynamic body")
                 .by_default(Parameter::Value{std::vector<std::string>{}}),
-            Parameter::number("interval", "s", "simulated time between rows; 0 for every step").at_least(0.0).by_default(0.0),
+            Parameter::number("interval", "s", "simulated time between rows; 0 for every step")
+                .at_least(0.0)
+                .by_default(0.0),
             Parameter::text("file", "name of the table in the result folder").by_default("track.csv")};
   }
 
@@ -33,7 +35,8 @@ class Track final : public Observer {
     if (path_.empty() || now.step % every_ != 0) return;
     if (!table_) open(*now.bodies.attributes);
     for (std::size_t i = 0; i < now.bodies.size(); ++i) {
-      const bool wanted = wanted_.empty() ? now.bodies.motion[i] == Motion::dynamic : wanted_.contains(now.bodies.id[i]);
+      const bool wanted =
+          wanted_.empty() ? now.bodies.motion[i] == Motion::dynamic : wanted_.contains(now.bodies.id[i]);
       if (wanted) add_row(now, i);
     }
   }
@@ -45,10 +48,11 @@ class Track final : public Observer {
  private:
   /// Opened at the first row, when every part has declared its attributes.
   void open(const Attributes& attributes) {
-    std::vector<CsvColumn> columns{{"time", "s"}, {"id", ""},       {"x", "m"},      {"y", "m"},      {"z", "m"},
-                                   {"vx", "m/s"}, {"vy", "m/s"},    {"vz", "m/s"},   {"wx", "rad/s"}, {"wy", "rad/s"},
-                                   {"wz", "rad/s"}, {"qw", ""},     {"qx", ""},      {"qy", ""},      {"qz", ""}};
-    for (AttributeId a = 0; a < attributes.count(); ++a) columns.push_back({attributes.info(a).name, attributes.info(a).unit});
+    std::vector<CsvColumn> columns{{"time", "s"},   {"id", ""},    {"x", "m"},    {"y", "m"},      {"z", "m"},
+                                   {"vx", "m/s"},   {"vy", "m/s"}, {"vz", "m/s"}, {"wx", "rad/s"}, {"wy", "rad/s"},
+                                   {"wz", "rad/s"}, {"qw", ""},    {"qx", ""},    {"qy", ""},      {"qz", ""}};
+    for (AttributeId a = 0; a < attributes.count(); ++a)
+      columns.push_back({attributes.info(a).name, attributes.info(a).unit});
     table_.emplace(path_, columns);
   }
 

@@ -1,0 +1,175 @@
+#include "scree/simulation/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "scree/config/scene_document.hpp"
+#include "scree/model/body_store.hpp"
+#include "scree/simulation/testing_catalog.hpp"
+
+namespace scree {
+namespace {
+
+using testing_parts::Catalog;
+using testing_parts::scene;
+
+constexpr const char* kFedScene = R"(
+[[force_field]]
+type = 'push'
+[[source]]
+type = 'drip'
+[[sink]]
+type = 'gate'
+limit = 0.5
+)";
+
+/// The text of the Error that a scene gives, or "" when it is accepted.
+std::string refusal(const std::string& toml) {
+  const Catalog catalog;
+  try {
+    const SceneDocument document = SceneDocument::parse(toml);
+    Simulation simulation{document, catalog, {}};
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string with_balls(const char* positions) {
+  return scene(
+      std::string{"[[body]]\nname = 'a'\nshape = 'ball'\nmaterial = 'stone'\nmotion = 'dynamic'\n"
+                  "[[body]]\nname = 'b'\nshape = 'ball'\nmaterial = 'stone'\nmotion = 'dynamic'\nposition = "} +
+      positions + "\n");
+}
+
+// Nothing vanishes: after every step, fed = present + removed, in number exactly and in mass to rounding.
+TEST(Simulation, every_body_is_accounted_for) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(scene(kFedScene));
+  Simulation simulation{document, catalog, {}};
+  std::size_t removed = 0;
+  for (int step = 0; step < 30; ++step) {
+    simulation.step();
+    removed += simulation.removed().size();
+    const Amount fed = simulation.feed().fed[0];
+    const Amount gone = simulation.feed().removed[0];
+    EXPECT_EQ(fed.count, simulation.bodies().size() + gone.count);
+    EXPECT_EQ(gone.count, removed);
+    EXPECT_NEAR(fed.mass, 2.0 * static_cast<double>(simulation.bodies().size()) + gone.mass, 1e-12);
+  }
+  EXPECT_GT(removed, 0u);
+}
+
+// x_n = a h^2 n (n + 1) / 2 for the scheme v += h a, x += h v: a body leaves at its 10th step (0.55 > 0.5).
+TEST(Simulation, sinks_log_who_left_where_and_why) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(scene(kFedScene));
+  Simulation simulation{document, catalog, {}};
+  for (int step = 0; step < 10; ++step) simulation.step();
+  ASSERT_EQ(simulation.removed().size(), 1u);
+  const RemovedBody& gone = simulation.removed()[0];
+  EXPECT_EQ(gone.id, 0u);
+  EXPECT_NEAR(gone.position.x, 0.55, 1e-12);
+  EXPECT_NEAR(gone.time, 1.0, 1e-12);
+  EXPECT_EQ(gone.sink, "gate");
+  EXPECT_EQ(gone.reason, "passed the gate");
+  EXPECT_TRUE(simulation.is_done());
+}
+
+// run(2N) = run(N), checkpoint, run(N), bit for bit, with a source whose random stream goes on.
+TEST(Simulation, continues_from_a_checkpoint_bit_for_bit) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(scene(kFedScene));
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "scree_simulation_test.h5";
+  Simulation whole{document, catalog, {}};
+  for (int step = 0; step < 7; ++step) whole.step();
+  whole.save(file);
+  for (int step = 0; step < 9; ++step) whole.step();
+  Simulation second{document, catalog, {}};
+  second.resume(file);
+  EXPECT_EQ(second.steps(), 7u);
+  for (int step = 0; step < 9; ++step) second.step();
+  EXPECT_EQ(second.state_hash(), whole.state_hash());
+  EXPECT_EQ(second.feed().fed[0].count, whole.feed().fed[0].count);
+  std::filesystem::remove(file);
+}
+
+TEST(Simulation, refuses_the_checkpoint_of_another_scene) {
+  const Catalog catalog;
+  const SceneDocument one = SceneDocument::parse(scene(kFedScene));
+  const SceneDocument other =
+      SceneDocument::parse(scene(std::string{kFedScene} + "\n[contacts]\nunlisted_pair = 'mean'\n"));
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "scree_other_scene_test.h5";
+  Simulation{one, catalog, {}}.save(file);
+  Simulation simulation{other, catalog, {}};
+  EXPECT_THROW(simulation.resume(file), Error);
+  std::filesystem::remove(file);
+}
+
+TEST(Simulation, names_the_field_and_the_body_of_a_nan_and_keeps_the_last_good_state) {
+  const Catalog catalog;
+  const SceneDocument document =
+      SceneDocument::parse(scene("[[force_field]]\ntype = 'push'\npoison_from = 0.45\n[[source]]\ntype = 'drip'\n"));
+  Simulation simulation{document, catalog, {}};
+  for (int step = 0; step < 5; ++step) simulation.step();
+  const Vec3 before = simulation.bodies().view().position[1];
+  try {
+    simulation.step();
+    FAIL() << "a NaN has to end the run";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 3);
+    EXPECT_NE(std::string{error.what()}.find("force_field:push"), std::string::npos) << error.what();
+    EXPECT_NE(std::string{error.what()}.find("body 1"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(simulation.bodies().view().position[1], before);
+}
+
+TEST(Simulation, too_fast_is_diverged) {
+  const Catalog catalog;
+  const SceneDocument document =
+      SceneDocument::parse(scene("[[force_field]]\ntype = 'push'\nacceleration = 1e6\n[[source]]\ntype = 'drip'\n"));
+  Simulation simulation{document, catalog, {}};
+  EXPECT_THROW(simulation.step(), Error);
+}
+
+TEST(Simulation, overlapping_bodies_are_refused_and_touching_ones_are_not) {
+  EXPECT_NE(refusal(with_balls("[0.15, 0, 0]")).find("body 'a' and body 'b' overlap by 0.05 m"), std::string::npos)
+      << refusal(with_balls("[0.15, 0, 0]"));
+  EXPECT_EQ(refusal(with_balls("[0.2, 0, 0]")), "");
+}
+
+TEST(Simulation, kinds_that_no_narrow_phase_supports_are_refused_when_the_scene_is_loaded) {
+  const std::string text = scene(
+      "[shape.brick]\ntype = 'box'\nsize = [1, 1, 1]\n[[body]]\nshape = 'brick'\nmaterial = "
+      "'stone'\nmotion = 'dynamic'\n[[body]]\nshape = 'ball'\nmaterial = 'stone'\nposition = [5, 0, 0]\n");
+  EXPECT_NE(refusal(text).find("box"), std::string::npos) << refusal(text);
+}
+
+TEST(Simulation, unknown_sections_and_names_get_a_suggestion) {
+  EXPECT_NE(refusal(scene("[[force_feild]]\ntype = 'push'\n")).find("'force_field'"), std::string::npos);
+  EXPECT_NE(refusal(scene("[[body]]\nshape = 'bal'\nmaterial = 'stone'\n")).find("did you mean 'ball'"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene("[[body]]\nshape = 'ball'\nmaterial = 'stome'\n")).find("did you mean 'stone'"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene("[shape.cube]\ntype = 'boxx'\n")).find("did you mean 'box'"), std::string::npos);
+}
+
+TEST(Simulation, planes_cannot_move_by_forces) {
+  const std::string text =
+      scene("[shape.floor]\ntype = 'plane'\n[[body]]\nshape = 'floor'\nmaterial = 'stone'\nmotion = 'dynamic'\n");
+  EXPECT_NE(refusal(text).find("a plane has no mass"), std::string::npos) << refusal(text);
+}
+
+TEST(Simulation, the_resolved_scene_shows_defaults_and_pairs) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(scene(kFedScene));
+  const Simulation simulation{document, catalog, {}};
+  const std::string json = simulation.resolved_scene();
+  EXPECT_NE(json.find("\"max_speed\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"material_pair\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"poison_from\""), std::string::npos) << json;
+}
+
+}  // namespace
+}  // namespace scree
