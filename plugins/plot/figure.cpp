@@ -1,0 +1,179 @@
+#include "plot/figure.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "plot/axis_map.hpp"
+#include "plot/canvas.hpp"
+#include "scree/base/require.hpp"
+#include "scree/results/output_file.hpp"
+
+namespace scree::plot {
+
+namespace {
+
+using Point = Canvas::Point;
+
+constexpr Colour kInk{0.1, 0.1, 0.1};
+constexpr Colour kGrid{0.88, 0.88, 0.88};
+constexpr Colour kGuide{0.35, 0.35, 0.35};
+constexpr std::array kColours{Colour{0.835, 0.369, 0.0}, Colour{0.0, 0.447, 0.698}, Colour{0.0, 0.620, 0.451},
+                              Colour{0.902, 0.624, 0.0}, Colour{0.8, 0.475, 0.655}, Colour{0.337, 0.706, 0.914}};
+constexpr double kSmall = 12.0, kNormal = 13.0, kLarge = 15.0;  // text sizes [px]
+constexpr double kFillOpacity = 0.22;
+
+Colour with_opacity(Colour colour, double opacity) { return {colour.red, colour.green, colour.blue, opacity}; }
+
+/// Draws one figure onto a canvas.
+class Painter {
+ public:
+  Painter(const Figure& figure, Canvas& canvas)
+      : figure_{figure},
+        canvas_{canvas},
+        x_{figure.x.scale, x_range(), left_, right_},
+        y_{figure.y.scale, y_range(), bottom_, top_} {}
+
+  void paint() {
+    const double w = figure_.width, h = figure_.height;
+    canvas_.fill({{0, 0}, {w, 0}, {w, h}, {0, h}}, {1, 1, 1});
+    titles();
+    grid();
+    canvas_.clip({left_, top_}, {right_, bottom_});
+    for (std::size_t i = 0; i < figure_.series.size(); ++i) series(figure_.series[i], kColours[i % kColours.size()]);
+    canvas_.clip_end();
+    guides();
+    canvas_.polyline({{left_, top_}, {left_, bottom_}, {right_, bottom_}, {right_, top_}, {left_, top_}}, kInk, 1.0);
+    legend();
+  }
+
+ private:
+  [[nodiscard]] std::pair<double, double> x_range() const {
+    if (figure_.x.range) return *figure_.x.range;
+    std::vector<double> all;
+    for (const Series& s : figure_.series) all.insert(all.end(), s.x.begin(), s.x.end());
+    for (const VerticalLine& line : figure_.lines) all.push_back(line.x);
+    return range_of(all, figure_.x.scale, false);
+  }
+  [[nodiscard]] std::pair<double, double> y_range() const {
+    if (figure_.y.range) return *figure_.y.range;
+    std::vector<double> all;
+    for (const Series& s : figure_.series) all.insert(all.end(), s.y.begin(), s.y.end());
+    return range_of(all, figure_.y.scale, true);
+  }
+
+  void titles() {
+    canvas_.text({left_, 26}, figure_.title, kLarge, Anchor::left, true);
+    canvas_.text({left_, 45}, figure_.note, kSmall, Anchor::left);
+    canvas_.text({0.5 * (left_ + right_), figure_.height - 14.0}, figure_.x.label, kNormal, Anchor::middle);
+    canvas_.text({22, 0.5 * (top_ + bottom_)}, figure_.y.label, kNormal, Anchor::middle, false, true);
+  }
+
+  void grid() {
+    for (const Tick& tick : x_.ticks()) {
+      const double x = x_(tick.value);
+      canvas_.line({x, top_}, {x, bottom_}, kGrid, 1.0);
+      canvas_.line({x, bottom_}, {x, bottom_ + 5}, kInk, 1.0);
+      canvas_.text({x, bottom_ + 20}, tick.text, kSmall, Anchor::middle);
+    }
+    for (const Tick& tick : y_.ticks()) {
+      const double y = y_(tick.value);
+      canvas_.line({left_, y}, {right_, y}, kGrid, 1.0);
+      canvas_.line({left_ - 5, y}, {left_, y}, kInk, 1.0);
+      canvas_.text({left_ - 9, y + 4}, tick.text, kSmall, Anchor::right);
+    }
+  }
+
+  void series(const Series& s, Colour colour) {
+    if (s.style == SeriesStyle::steps) return steps(s, colour);
+    std::vector<Point> run;
+    const auto end_run = [&] {
+      if (s.style == SeriesStyle::line && run.size() > 1) canvas_.polyline(run, colour, 1.8);
+      run.clear();
+    };
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!x_.can_show(s.x[i]) || !y_.can_show(s.y[i])) {
+        end_run();
+        continue;
+      }
+      run.emplace_back(x_(s.x[i]), y_(s.y[i]));
+      if (s.style == SeriesStyle::points) canvas_.disc(run.back(), 3.0, colour);
+    }
+    end_run();
+  }
+
+  void steps(const Series& s, Colour colour) {
+    std::vector<Point> outline{{x_(s.x.front()), bottom_}};
+    for (std::size_t i = 0; i < s.y.size(); ++i) {
+      const double y = y_.can_show(s.y[i]) ? y_(s.y[i]) : bottom_;
+      outline.emplace_back(x_(s.x[i]), y);
+      outline.emplace_back(x_(s.x[i + 1]), y);
+    }
+    outline.emplace_back(x_(s.x.back()), bottom_);
+    canvas_.fill(outline, with_opacity(colour, kFillOpacity));
+    canvas_.polyline(outline, colour, 1.8);
+  }
+
+  void guides() {
+    for (const VerticalLine& line : figure_.lines) {
+      const double x = x_(line.x);
+      canvas_.line({x, top_}, {x, bottom_}, kGuide, 1.3, true);
+      if (!line.label.empty()) canvas_.text({x + 4, bottom_ - 8}, line.label, kSmall, Anchor::left, false, true);
+    }
+    for (const Region& region : figure_.regions) {
+      const double from = std::max(left_, x_(region.from)), to = std::min(right_, x_(region.to));
+      canvas_.text({0.5 * (from + to), top_ - 8}, region.label, kSmall, Anchor::middle, true);
+    }
+  }
+
+  void legend() {
+    double width = 0.0;
+    for (const Series& s : figure_.series) width = std::max(width, canvas_.text_width(s.label, kSmall));
+    if (width == 0.0) return;
+    constexpr double kLine = 20.0, kSwatch = 22.0, kPad = 9.0;
+    const double height = kLine * static_cast<double>(figure_.series.size()) + kPad;
+    const double x1 = right_ - 10, x0 = x1 - width - kSwatch - 3 * kPad, y0 = top_ + 10;
+    canvas_.fill({{x0, y0}, {x1, y0}, {x1, y0 + height}, {x0, y0 + height}}, {1, 1, 1, 0.85});
+    canvas_.polyline({{x0, y0}, {x1, y0}, {x1, y0 + height}, {x0, y0 + height}, {x0, y0}}, kGrid, 1.0);
+    double y = y0 + 0.5 * (kPad + kLine);
+    for (std::size_t i = 0; i < figure_.series.size(); ++i) {
+      swatch(figure_.series[i].style, {x0 + kPad, y}, kSwatch, kColours[i % kColours.size()]);
+      canvas_.text({x0 + 2 * kPad + kSwatch, y + 4}, figure_.series[i].label, kSmall, Anchor::left);
+      y += kLine;
+    }
+  }
+
+  void swatch(SeriesStyle style, Point at, double width, Colour colour) {
+    const auto [x, y] = at;
+    if (style == SeriesStyle::points) return canvas_.disc({x + 0.5 * width, y}, 3.0, colour);
+    if (style == SeriesStyle::line) return canvas_.line({x, y}, {x + width, y}, colour, 1.8);
+    const std::vector<Point> box{{x, y - 5}, {x + width, y - 5}, {x + width, y + 5}, {x, y + 5}, {x, y - 5}};
+    canvas_.fill(box, with_opacity(colour, kFillOpacity));
+    canvas_.polyline(box, colour, 1.5);
+  }
+
+  const Figure& figure_;
+  Canvas& canvas_;
+  double left_ = 78.0, right_ = figure_.width - 24.0;  // of the frame [px]
+  double top_ = 78.0, bottom_ = figure_.height - 58.0;
+  AxisMap x_, y_;
+};
+
+void check_lengths(const Figure& figure) {
+  for (const Series& s : figure.series) {
+    const std::size_t expected = s.y.size() + (s.style == SeriesStyle::steps ? 1 : 0);
+    SCREE_REQUIRE(s.x.size() == expected, "a series has as many x as y; a histogram one more, its edges");
+  }
+}
+
+}  // namespace
+
+void write_figure(const Figure& figure, const std::filesystem::path& stem) {
+  check_lengths(figure);
+  const auto draw = [&](Canvas& canvas) { Painter{figure, canvas}.paint(); };
+  const std::string svg = Canvas::as_svg(figure.width, figure.height, draw);
+  const std::string png = Canvas::as_png(figure.width, figure.height, draw);
+  replace_file(stem.string() + ".svg", std::string_view{svg});
+  replace_file(stem.string() + ".png", std::string_view{png});
+}
+
+}  // namespace scree::plot
