@@ -4,6 +4,7 @@
 
 #include "contact_writer.hpp"
 #include "hull.hpp"
+#include "scree/interfaces/plugin_library.hpp"
 #include "support_points.hpp"
 
 namespace scree {
@@ -173,3 +174,16 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
 }
 
 }  // namespace scree
+
+namespace {
+
+void list(scree::PluginList& plugins) {
+  plugins.add<scree::NarrowPhase, scree::SphereCluster>(
+      "sphere_cluster",
+      "Closed forms: spheres and clusters of spheres against all kinds; corners of boxes and others against planes.");
+}
+
+}  // namespace
+
+extern "C" SCREE_EXPORT const scree::PluginLibrary scree_plugin_library{
+    scree::describe_library("sphere_cluster", "1.0.0", &list)};
