@@ -67,7 +67,7 @@ Options read_shorthand(const SceneNode& node, const Parameter& parameter, const 
   const Parameter& member = shorthand_member(parameter, *alternative);
   Options::Entry given = entry_at(node);
   given.value = read_plain_value(node, member, subject);
-  return alternative_with(*alternative, node, subject, member.name, std::move(given));
+  return alternative_with(*alternative, node, subject, member.name, given);
 }
 
 Options read_variant(const SceneNode& node, const Parameter& parameter, const std::string& subject) {
