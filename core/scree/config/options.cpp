@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scree/config/units.hpp"
+
 namespace scree {
 
 Options::Options() = default;
@@ -50,6 +52,15 @@ std::int64_t Options::integer(std::string_view name) const { return value<std::i
 double Options::number(std::string_view name) const {
   if (const auto* whole = std::get_if<std::int64_t>(&present(name).value)) return static_cast<double>(*whole);
   return value<double>(name, "number");
+}
+double Options::number_in(std::string_view name, std::string_view unit) const {
+  const Entry& entry = present(name);
+  if (entry.written.empty()) return number(name);
+  try {
+    return parse_quantity(entry.written, unit);
+  } catch (const Error& failure) {
+    throw Error{failure.kind(), location(name), "'" + std::string{name} + "': " + failure.what()};
+  }
 }
 Vec3 Options::vector(std::string_view name) const { return value<Vec3>(name, "vector"); }
 const std::vector<double>& Options::numbers(std::string_view name) const {

@@ -40,6 +40,9 @@ class Options {
   [[nodiscard]] std::int64_t integer(std::string_view name) const;
   /// In the SI unit of the parameter's description, as all numbers here.
   [[nodiscard]] double number(std::string_view name) const;
+  /// The number of a setting with unit `any`, now that its reader knows the unit. @throws Error (usage) at its place when
+  /// the scene wrote a quantity of another dimension.
+  [[nodiscard]] double number_in(std::string_view name, std::string_view unit) const;
   [[nodiscard]] Vec3 vector(std::string_view name) const;
   [[nodiscard]] const std::vector<double>& numbers(std::string_view name) const;
   /// The string of a text or choice.
@@ -90,6 +93,7 @@ struct Options::Entry {
   std::filesystem::path base;   ///< folder that a path is relative to
   SourceLocation where;
   bool given = true;
+  std::string written;   ///< the quantity of a setting with unit `any`, as the scene wrote it; else empty
   bool is_list = false;  ///< of tables or variants
   bool present = true;   ///< false for a described setting without a value
 };

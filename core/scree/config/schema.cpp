@@ -185,7 +185,10 @@ std::string scene_schema(std::span<const SchemaSection> sections, std::span<cons
     definitions[section.key] = section_schema(section);
     const Json reference{{"$ref", "#/$defs/" + section.key}};
     Json property{{"description", section.help}};
-    if (section.is_list) {
+    if (section.is_named) {
+      property["type"] = "object";
+      property["additionalProperties"] = reference;
+    } else if (section.is_list) {
       property["anyOf"] = Json::array({{{"type", "array"}, {"items", reference}}, reference});
     } else if (section.is_named) {
       property.update({{"type", "object"}, {"additionalProperties", reference}});

@@ -16,7 +16,7 @@ struct SchemaPlugin {
   std::vector<Parameter> parameters;
 };
 
-/// A top-level table of a scene, `[key]`, or a list of them, `[[key]]`.
+/// A top-level table of a scene, `[key]`; or a list of them, `[[key]]`; or named ones, `[key.NAME]`.
 struct SchemaSection {
   std::string key;
   std::string help;

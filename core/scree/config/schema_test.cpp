@@ -69,13 +69,15 @@ TEST(schema, a_variant_is_typed_or_plain) {
 
 TEST(schema, a_scene_offers_each_plugin_with_its_own_settings) {
   const std::vector<SchemaSection> sections{
-      {"time", "of the run", false, true, {Parameter::number("end", "s", "")}, {}},
+      {"time", "of the run", false, false, true, {Parameter::number("end", "s", "")}, {}},
       {"force_field",
        "on all bodies",
        true,
        false,
+       false,
        {Parameter::text("name", "").optional()},
-       {{"drag", "of the air", {Parameter::number("viscosity", "Pa s", "")}}, {"gravity", "of the earth", {}}}}};
+       {{"drag", "of the air", {Parameter::number("viscosity", "Pa s", "")}}, {"gravity", "of the earth", {}}}},
+      {"material", "by name", false, true, false, {Parameter::number("density", "kg/m3", "")}, {}}};
   const std::vector<Parameter> root{Parameter::texts("plugins", "files").optional()};
   const Json schema = Json::parse(scene_schema(sections, root));
   EXPECT_EQ(schema["required"], Json({"time"}));
@@ -84,6 +86,8 @@ TEST(schema, a_scene_offers_each_plugin_with_its_own_settings) {
   EXPECT_TRUE(schema["properties"].contains("plugins"));
   EXPECT_EQ(schema["properties"]["time"]["$ref"], "#/$defs/time");
   EXPECT_EQ(schema["properties"]["force_field"]["anyOf"][0]["items"]["$ref"], "#/$defs/force_field");
+  EXPECT_EQ(schema["properties"]["material"]["additionalProperties"]["$ref"], "#/$defs/material");
+  EXPECT_EQ(schema["$defs"]["material"]["required"], Json({"density"}));
   const Json& plugins = schema["$defs"]["force_field"]["oneOf"];
   ASSERT_EQ(plugins.size(), 2U);
   EXPECT_EQ(plugins[0]["properties"]["type"]["const"], "drag");

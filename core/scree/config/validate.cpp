@@ -6,6 +6,7 @@
 #include "scree/config/parameter_text.hpp"
 #include "scree/config/scene_node.hpp"
 #include "scree/config/suggest.hpp"
+#include "scree/config/units.hpp"
 #include "scree/config/value_reader.hpp"
 
 namespace scree {
@@ -67,6 +68,7 @@ Options read_shorthand(const SceneNode& node, const Parameter& parameter, const 
   const Parameter& member = shorthand_member(parameter, *alternative);
   Options::Entry given = entry_at(node);
   given.value = read_plain_value(node, member, subject);
+  if (member.unit == kAnyUnit) given.written = node.text;
   return alternative_with(*alternative, node, subject, member.name, given);
 }
 
@@ -156,6 +158,7 @@ Options::Entry read_entry(const SceneNode& node, const Parameter& parameter, con
       break;
     default:
       entry.value = read_plain_value(node, parameter, subject);
+      if (parameter.unit == kAnyUnit) entry.written = node.text;
   }
   return entry;
 }

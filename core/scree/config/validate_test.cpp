@@ -84,6 +84,22 @@ length = "1 cm"
   EXPECT_EQ(attributes.table("big").number("to"), 1.0);
 }
 
+TEST(validate, the_dimension_of_an_attribute_is_checked_once_its_unit_is_known) {
+  const Options options = options_from_text("[attributes]\ncharge = '2 nC'\nwidth = '2 mm'\nplain = 3\n",
+                                            {Parameter::columns("attributes", {}, "any", "of bodies")});
+  const Options& attributes = options.table("attributes");
+  EXPECT_EQ(attributes.number("charge"), attributes.number_in("charge", "C"));
+  EXPECT_EQ(attributes.number_in("plain", "C"), 3.0);
+  try {
+    (void)attributes.number_in("width", "C");
+    FAIL() << "accepted";
+  } catch (const Error& failure) {
+    EXPECT_STREQ(
+        failure.what(),
+        "scene.toml:3:9: 'width': \"2 mm\" is in mm, which cannot be converted to C; write for example \"2 nC\"");
+  }
+}
+
 TEST(validate, copies_are_deep) {
   Options copy;
   {
