@@ -15,6 +15,10 @@ void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor)
   partition_.build(problem);
   slots_.resize(partition_.slot_count());
   w_.resize(problem.bodies());
+  traces_.resize(problem.blocks());
+  for_chunks(problem.blocks(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) traces_[i] = diagonal_trace(problem, i);
+  });
 }
 
 void DelassusOperator::body_velocities(std::span<const double> gamma, std::span<Twist> w) {

@@ -28,6 +28,8 @@ class DelassusOperator {
 
   [[nodiscard]] const CcpProblem& problem() const { return *problem_; }
   [[nodiscard]] const ContactPartition& partition() const { return partition_; }
+  /// trace(N_ii) of each contact [1/kg].
+  [[nodiscard]] std::span<const double> traces() const { return traces_; }
 
   /// w = M^-1 D gamma [m/s, rad/s], one Twist per body.
   void body_velocities(std::span<const double> gamma, std::span<Twist> w);
@@ -59,6 +61,7 @@ class DelassusOperator {
   ContactPartition partition_;
   std::vector<Twist> slots_;
   std::vector<Twist> w_;
+  std::vector<double> traces_;
   std::vector<double> partial_;
 };
 

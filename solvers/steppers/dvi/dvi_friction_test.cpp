@@ -124,7 +124,8 @@ TEST(dvi_coulomb, pile_meets_the_coulomb_conditions_to_the_error_it_reports) {
   std::mt19937_64 random{4};
   std::uniform_real_distribution<double> u{-0.004, 0.004};
   for (int k = 0; k < 18; ++k) {
-    w.add_sphere({0.099 * (k % 3) + u(random), 0.099 * (k / 3 % 3) + u(random), 0.05 + 0.099 * (k / 9)}, 0.05, 1000.0,
+    const int layer = k / 9;
+    w.add_sphere({0.099 * (k % 3) + u(random), 0.099 * (k / 3 % 3) + u(random), 0.05 + 0.099 * layer}, 0.05, 1000.0,
                  {0.5, 0, 0});
   }
   w.host.material({.friction = 0.5});

@@ -205,7 +205,8 @@ void fill(World& w) {
   std::mt19937_64 random{3};
   std::uniform_real_distribution<double> u{-0.01, 0.01};
   for (int k = 0; k < 27; ++k) {
-    w.add_sphere({0.1 * (k % 3) + u(random), 0.1 * (k / 3 % 3) + u(random), 0.06 + 0.11 * (k / 9)}, 0.05, 1000.0,
+    const int layer = k / 9;
+    w.add_sphere({0.1 * (k % 3) + u(random), 0.1 * (k / 3 % 3) + u(random), 0.06 + 0.11 * layer}, 0.05, 1000.0,
                  {u(random), u(random), -1.0});
   }
   w.host.material({.friction = 0.4, .restitution = 0.3});
