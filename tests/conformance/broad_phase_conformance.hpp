@@ -165,7 +165,7 @@ TEST_P(BroadPhaseConformance, keeps_unwanted_pairs_to_itself) {
 }
 
 TEST_P(BroadPhaseConformance, threads_change_nothing) {
-  const TestBoxes boxes = polydisperse(3000, 31);
+  const TestBoxes boxes = polydisperse(1500, 31);
   const auto other = GetParam().make();
   EXPECT_EQ(pairs_of(*phase_, boxes.view(), 1), pairs_of(*other, boxes.view(), 2));
 }
