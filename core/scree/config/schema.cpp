@@ -190,8 +190,6 @@ std::string scene_schema(std::span<const SchemaSection> sections, std::span<cons
       property["additionalProperties"] = reference;
     } else if (section.is_list) {
       property["anyOf"] = Json::array({{{"type", "array"}, {"items", reference}}, reference});
-    } else if (section.is_named) {
-      property.update({{"type", "object"}, {"additionalProperties", reference}});
     } else {
       property.update(reference);
     }

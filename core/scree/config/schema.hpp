@@ -22,9 +22,9 @@ struct SchemaSection {
   std::string help;
   bool is_list = false;
   bool required = false;
-  std::vector<Parameter> parameters;  ///< core's own keys; they go with every plugin
-  std::vector<SchemaPlugin> plugins;  ///< when not empty, `type` chooses one of them
-  bool is_named = false;              ///< tables by free names, `[key.NAME]`
+  std::vector<Parameter> parameters{};  ///< core's own keys; they go with every plugin
+  std::vector<SchemaPlugin> plugins{};  ///< when not empty, `type` chooses one of them
+  bool is_named = false;                ///< tables by free names, `[key.NAME]`
 };
 
 /// The schema of one table with these settings, as JSON text.

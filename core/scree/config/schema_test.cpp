@@ -69,15 +69,17 @@ TEST(schema, a_variant_is_typed_or_plain) {
 
 TEST(schema, a_scene_offers_each_plugin_with_its_own_settings) {
   const std::vector<SchemaSection> sections{
-      {"time", "of the run", false, false, true, {Parameter::number("end", "s", "")}, {}},
-      {"force_field",
-       "on all bodies",
-       true,
-       false,
-       false,
-       {Parameter::text("name", "").optional()},
-       {{"drag", "of the air", {Parameter::number("viscosity", "Pa s", "")}}, {"gravity", "of the earth", {}}}},
-      {"material", "by name", false, true, false, {Parameter::number("density", "kg/m3", "")}, {}}};
+      {.key = "time", .help = "of the run", .required = true, .parameters = {Parameter::number("end", "s", "")}},
+      {.key = "force_field",
+       .help = "on all bodies",
+       .is_list = true,
+       .parameters = {Parameter::text("name", "").optional()},
+       .plugins = {{"drag", "of the air", {Parameter::number("viscosity", "Pa s", "")}},
+                   {"gravity", "of the earth", {}}}},
+      {.key = "material",
+       .help = "by name",
+       .parameters = {Parameter::number("density", "kg/m3", "")},
+       .is_named = true}};
   const std::vector<Parameter> root{Parameter::texts("plugins", "files").optional()};
   const Json schema = Json::parse(scene_schema(sections, root));
   EXPECT_EQ(schema["required"], Json({"time"}));
