@@ -1,7 +1,7 @@
 """The documentation rule.
 
 - A folder whose CMakeLists.txt adds a plugin has a README.md with a ```toml snippet (fixtures of tests are exempt).
-- A folder below examples/ has a scene.toml and a README.md.
+- A folder below examples/ has a scene.toml and a README.md (but examples/support, which they share).
 - A relative link in a Markdown file leads to a file or folder of the repository.
 - A decision (docs/decisions/NNNN-*.md) has at most 40 lines.
 """
@@ -37,7 +37,8 @@ def _plugins(root, names):
 
 
 def _examples(names):
-    folders = sorted({pathlib.PurePath(n).parts[1] for n in names if n.startswith("examples/") and n.count("/") > 1})
+    folders = sorted({pathlib.PurePath(n).parts[1] for n in names if n.startswith("examples/") and n.count("/") > 1}
+                     - {"support"})
     return [repository.Finding(f"examples/{folder}", 1, f"the example has no {needed}.")
             for folder in folders for needed in ("scene.toml", "README.md") if f"examples/{folder}/{needed}" not in names]
 
