@@ -96,7 +96,8 @@ std::vector<SceneSection> model_sections() {
       {"material", SectionForm::named, "A material: [material.steel].",
        std::vector<Parameter>{
            Parameter::number("density", "kg/m3", "mass density").above(0.0).by_default(1000.0),
-           Parameter::columns("attributes", {}, "1", "body attributes that come with the material, in SI").optional()} +
+           Parameter::columns("attributes", {}, "any", "body attributes that come with the material, in SI")
+               .optional()} +
            contact_parameters()},
       {"material_pair", SectionForm::list, "Contact parameters of two materials.",
        std::vector<Parameter>{Parameter::texts("between", "the two materials").with_count(2)} + contact_parameters()},
@@ -112,7 +113,7 @@ std::vector<SceneSection> model_sections() {
            Parameter::vector("angular_velocity", "rad/s", "world frame; of a kinematic body for ever")
                .by_default(Vec3{}),
            Parameter::boolean("collides", "false: nothing touches the body").by_default(true),
-           Parameter::columns("attributes", {}, "1", "body attributes, in SI").optional()} +
+           Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
            pose_parameters()}};
 }
 

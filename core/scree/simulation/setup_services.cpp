@@ -20,6 +20,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
 }  // namespace
 
 void SetupServices::provide_from_scene() {
+  check_attribute_units();
   Attributes& columns = context_.bodies.attributes();
   const Materials& materials = context_.model.materials;
   for (std::uint32_t m = 0; m < materials.size(); ++m) {
@@ -33,6 +34,19 @@ void SetupServices::provide_from_scene() {
       columns.declare({name, "1", "given by bodies", 0.0, {"body '" + body.name + "'"}});
     }
   }
+}
+
+void SetupServices::check_attribute_units() const {
+  const Attributes& columns = context_.bodies.attributes();
+  const auto check = [&](const Options& options) {
+    if (!options.has("attributes")) return;
+    const Options& written = options.table("attributes");
+    for (const std::string& name : written.names()) {
+      if (columns.has(name)) (void)written.number_in(name, columns.info(columns.id(name)).unit);
+    }
+  };
+  for (const NamedOptions& material : context_.model.material_options) check(material.options);
+  for (const SceneBody& body : context_.model.bodies) check(body.options);
 }
 
 void SetupServices::check_attributes() const {

@@ -49,6 +49,9 @@ class SetupServices final : public SceneServices {
   void log(std::string_view line) const override;
 
  private:
+  // Every quantity in an `attributes` table has the dimension of its column.
+  void check_attribute_units() const;
+
   struct Reader {
     std::string part;
     std::string attribute;

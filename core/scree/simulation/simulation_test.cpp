@@ -161,6 +161,19 @@ TEST(Simulation, planes_cannot_move_by_forces) {
   EXPECT_NE(refusal(text).find("a plane has no mass"), std::string::npos) << refusal(text);
 }
 
+TEST(Simulation, attributes_have_the_dimension_that_their_reader_states) {
+  const auto charged = [](const std::string& charge) {
+    return scene(
+        "[[force_field]]\ntype = 'charged'\n[[body]]\nshape = 'ball'\nmaterial = 'stone'\n"
+        "attributes = { charge = " +
+        charge + " }\n");
+  };
+  EXPECT_EQ(refusal(charged("'2 nC'")), "");
+  EXPECT_EQ(refusal(charged("2e-9")), "");
+  EXPECT_NE(refusal(charged("'2 mm'")).find("\"2 mm\" is in mm, which cannot be converted to C"), std::string::npos)
+      << refusal(charged("'2 mm'"));
+}
+
 TEST(Simulation, the_resolved_scene_shows_defaults_and_pairs) {
   const Catalog catalog;
   const SceneDocument document = SceneDocument::parse(scene(kFedScene));

@@ -91,6 +91,13 @@ class Push final : public ForceField {
   double poison_from_;   // [s]
 };
 
+/// Reads the attribute `charge` [C]; no force.
+class Charged final : public ForceField {
+ public:
+  void setup(SceneServices& services) override { services.require_attribute("charge", "C", "of the body"); }
+  void add_forces(const BodyView&, double, WrenchView) const override {}
+};
+
 /// One body a step at a random height; its counter is its state.
 class Drip final : public Source {
  public:
@@ -131,6 +138,7 @@ class Catalog final : public PluginCatalog {
     list_.add<BroadPhase, AllPairs>("all_pairs", "");
     list_.add<NarrowPhase, Spheres>("spheres", "");
     list_.add<ForceField, Push>("push", "", Push::parameters());
+    list_.add<ForceField, Charged>("charged", "");
     list_.add<Source, Drip>("drip", "");
     list_.add<Sink, Gate>("gate", "", Gate::parameters());
   }
