@@ -125,7 +125,7 @@ std::vector<Polygon> read_polygons(qhT* qh, const Normalised& points) {
     }
     if (dot(area, polygon.normal) < 0.0) std::ranges::reverse(polygon.corners);
     // Start at the lowest index, so that the fan of triangles does not hang on Qhull's order.
-    std::ranges::rotate(polygon.corners, std::ranges::min_element(polygon.corners));
+    std::rotate(polygon.corners.begin(), std::ranges::min_element(polygon.corners), polygon.corners.end());
     polygons.push_back(std::move(polygon));
   }
   std::ranges::sort(polygons, {}, &Polygon::corners);
