@@ -117,7 +117,7 @@ class Painter {
     for (const VerticalLine& line : figure_.lines) {
       const double x = x_(line.x);
       canvas_.line({x, top_}, {x, bottom_}, kGuide, 1.3, true);
-      if (!line.label.empty()) canvas_.text({x + 4, bottom_ - 8}, line.label, kSmall, Anchor::left, false, true);
+      if (!line.label.empty()) canvas_.text({x + 13, bottom_ - 8}, line.label, kSmall, Anchor::left, false, true);
     }
     for (const Region& region : figure_.regions) {
       const double from = std::max(left_, x_(region.from)), to = std::min(right_, x_(region.to));
@@ -125,20 +125,16 @@ class Painter {
     }
   }
 
+  // One row between the titles and the frame, where it hides no data.
   void legend() {
-    double width = 0.0;
-    for (const Series& s : figure_.series) width = std::max(width, canvas_.text_width(s.label, kSmall));
-    if (width == 0.0) return;
-    constexpr double kLine = 20.0, kSwatch = 22.0, kPad = 9.0;
-    const double height = kLine * static_cast<double>(figure_.series.size()) + kPad;
-    const double x1 = right_ - 10, x0 = x1 - width - kSwatch - 3 * kPad, y0 = top_ + 10;
-    canvas_.fill({{x0, y0}, {x1, y0}, {x1, y0 + height}, {x0, y0 + height}}, {1, 1, 1, 0.85});
-    canvas_.polyline({{x0, y0}, {x1, y0}, {x1, y0 + height}, {x0, y0 + height}, {x0, y0}}, kGrid, 1.0);
-    double y = y0 + 0.5 * (kPad + kLine);
+    constexpr double kSwatch = 22.0, kPad = 8.0;
+    double x = left_;
     for (std::size_t i = 0; i < figure_.series.size(); ++i) {
-      swatch(figure_.series[i].style, {x0 + kPad, y}, kSwatch, kColours[i % kColours.size()]);
-      canvas_.text({x0 + 2 * kPad + kSwatch, y + 4}, figure_.series[i].label, kSmall, Anchor::left);
-      y += kLine;
+      const Series& s = figure_.series[i];
+      if (s.label.empty()) continue;
+      swatch(s.style, {x, 63}, kSwatch, kColours[i % kColours.size()]);
+      canvas_.text({x + kSwatch + kPad, 67}, s.label, kSmall, Anchor::left);
+      x += kSwatch + canvas_.text_width(s.label, kSmall) + 4 * kPad;
     }
   }
 
@@ -154,7 +150,7 @@ class Painter {
   const Figure& figure_;
   Canvas& canvas_;
   double left_ = 78.0, right_ = figure_.width - 24.0;  // of the frame [px]
-  double top_ = 78.0, bottom_ = figure_.height - 58.0;
+  double top_ = 102.0, bottom_ = figure_.height - 58.0;
   AxisMap x_, y_;
 };
 
