@@ -1,0 +1,140 @@
+#include "emitter.hpp"
+
+#include <cmath>
+
+#include "scree/interfaces/scene_services.hpp"
+#include "scree/state/state_io.hpp"
+
+namespace scree {
+namespace {
+
+/// Trials to place a particle before it waits for the next step.
+constexpr int kTrials = 40;
+
+}  // namespace
+
+std::vector<Parameter> Emitter::parameters() {
+  std::vector<Parameter> all{
+      Parameter::number("rate", "1/s", "particles per second; this or mass_rate").at_least(0.0).optional(),
+      Parameter::number("mass_rate", "kg/s", "mass per second; this or rate").at_least(0.0).optional(),
+      Parameter::integer("total", "number of particles after which the feed ends").at_least(0).optional(),
+      Parameter::number("start", "s", "time at which the feed begins").by_default(0.0),
+      Parameter::number("stop", "s", "time at which the feed ends").optional(),
+      Parameter::vector("centre", "m", "middle of the outlet"),
+      Parameter::vector("u", "m", "one edge of the outlet, a rectangle"),
+      Parameter::vector("v", "m", "the other edge, perpendicular to u"),
+      Parameter::vector("velocity", "m/s", "of the particles at birth").by_default(Vec3{}),
+      Parameter::number("velocity_spread", "m/s", "standard deviation of each component of the velocity")
+          .at_least(0.0)
+          .by_default(0.0),
+      Parameter::number("spin_spread", "rad/s", "standard deviation of each component of the angular velocity")
+          .at_least(0.0)
+          .by_default(0.0)};
+  for (Parameter& parameter : Mixture::parameters()) all.push_back(std::move(parameter));
+  return all;
+}
+
+Emitter::Emitter(const Options& options)
+    : options_{options},
+      start_{options.number("start")},
+      centre_{options.vector("centre")},
+      u_{options.vector("u")},
+      v_{options.vector("v")},
+      velocity_{options.vector("velocity")},
+      spread_{options.number("velocity_spread")},
+      spin_{options.number("spin_spread")} {
+  if (options.has("rate") == options.has("mass_rate")) {
+    throw options.error("an emitter needs either 'rate' (particles per second) or 'mass_rate' (mass per second)");
+  }
+  if (options.has("rate")) rate_ = options.number("rate");
+  if (options.has("mass_rate")) mass_rate_ = options.number("mass_rate");
+  if (options.has("total")) total_ = static_cast<std::uint64_t>(options.integer("total"));
+  if (options.has("stop")) stop_ = options.number("stop");
+  if (stop_ <= start_) throw options.error("stop", "'stop' has to be later than 'start'");
+  if (norm(cross(u_, v_)) <= 0.0) throw options.error("v", "the edges u and v of the outlet must span a rectangle");
+  if (std::abs(dot(u_, v_)) > 1e-6 * norm(u_) * norm(v_)) {
+    throw options.error("v", "the edges u and v of the outlet have to be perpendicular");
+  }
+}
+
+void Emitter::setup(SceneServices& services) {
+  mixture_.emplace(options_, services);
+  shapes_ = &services.shapes();
+  particles_.emplace(services.random_stream("particles"));
+  places_.emplace(services.random_stream("places"));
+}
+
+bool Emitter::is_due(const Particle& particle, double until) const {
+  // Closed in the time, not summed up step by step, so that no rounding accumulates.
+  const double open = std::min(until, stop_) - start_;
+  if (rate_) return static_cast<double>(emitted_ + 1) <= *rate_ * open * (1.0 + 1e-12);
+  return emitted_mass_ + 0.5 * particle.body.mass <= *mass_rate_ * open;
+}
+
+bool Emitter::place(Particle& particle, double dt) {
+  for (int trial = 0; trial < kTrials; ++trial) {
+    // Along the way of one step behind the outlet, so that the stream has no layers.
+    const Vec3 at = centre_ + places_->uniform(-0.5, 0.5) * u_ + places_->uniform(-0.5, 0.5) * v_ +
+                    (places_->uniform() * dt) * velocity_;
+    if (!occupancy_.is_free(at, particle.bounding_radius)) continue;
+    occupancy_.add(at, particle.bounding_radius);
+    particle.body.pose.position = at;
+    const auto scatter = [&](double deviation) {
+      return deviation > 0.0 ? deviation * Vec3{places_->normal(), places_->normal(), places_->normal()} : Vec3{};
+    };
+    particle.body.velocity = velocity_ + scatter(spread_);
+    particle.body.angular_velocity = scatter(spin_);
+    return true;
+  }
+  return false;
+}
+
+void Emitter::emit(const BodyView& bodies, double time, double dt, std::vector<NewBody>& out) {
+  if (time + dt <= start_ || emitted_ >= total_) return;
+  bool collected = false;
+  while (emitted_ < total_) {
+    if (!pending_) {
+      pending_counter_ = particles_->counter();
+      pending_ = mixture_->draw(*particles_);
+    }
+    if (!is_due(*pending_, time + dt)) return;
+    if (!collected) {
+      const Vec3 way = dt * velocity_;
+      const Vec3 corner = centre_ - 0.5 * u_ - 0.5 * v_;
+      Aabb outlet = Aabb::empty();
+      for (const Vec3& p : {corner, corner + u_, corner + v_, corner + u_ + v_})
+        outlet = merged(merged(outlet, p), p + way);
+      // Every particle born in this step fits into the margin: sizes of one feed differ by less than ten.
+      occupancy_.collect(bodies, *shapes_, expanded(outlet, 10.0 * pending_->bounding_radius));
+      collected = true;
+    }
+    if (!place(*pending_, dt)) {
+      ++postponed_;
+      return;
+    }
+    pending_->body.shape = shapes_->add(pending_->shape);
+    ++emitted_;
+    emitted_mass_ += pending_->body.mass;
+    out.push_back(std::move(pending_->body));
+    pending_.reset();
+  }
+}
+
+void Emitter::save(StateWriter& out) const {
+  out.write("particles", pending_ ? pending_counter_ : particles_->counter());
+  out.write("places", places_->counter());
+  out.write("emitted", emitted_);
+  out.write("emitted_mass", emitted_mass_);
+  out.write("postponed", postponed_);
+}
+
+void Emitter::load(const StateReader& in) {
+  pending_.reset();
+  particles_->set_counter(in.integer("particles"));
+  places_->set_counter(in.integer("places"));
+  emitted_ = in.integer("emitted");
+  emitted_mass_ = in.number("emitted_mass");
+  postponed_ = in.integer("postponed");
+}
+
+}  // namespace scree
