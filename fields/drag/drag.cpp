@@ -40,7 +40,7 @@ void Drag::setup(SceneServices& services) {
   executor_ = &services.executor();
   // Stokes' law is the weakest drag of both, so this is a lower bound for schiller_naumann.
   std::ostringstream line;
-  line << "drag: in a step of " << services.time_step() << " s, grains whose density times radius squared is above "
+  line << "in a step of " << services.time_step() << " s, grains whose density times radius squared is above "
        << 4.5 * viscosity_ * services.time_step() << " kg/m slow down without overshoot (Stokes' law)";
   services.log(line.str());
 }

@@ -51,7 +51,7 @@ void TwoCylinders::setup(SceneServices& services) {
   // On the line of centres, where the roll comes nearest to the electrode, the field on it is largest.
   const double strongest = norm(field_at(to_local(centre_ + roll_radius_ * Vec3{cos_angle_, sin_angle_, 0.0})));
   std::ostringstream line;
-  line << "two_cylinders: at most " << strongest / 1e3 << " kV/m on the roll";
+  line << "at most " << strongest / 1e3 << " kV/m on the roll";
   services.log(line.str());
 }
 
