@@ -22,11 +22,12 @@ struct ResultPattern {
   std::string_view begin, end;
 };
 constexpr std::array kPatterns{
-    ResultPattern{"run", ".json"},           ResultPattern{"steps", ".csv"},     ResultPattern{"removed", ".csv"},
-    ResultPattern{"bins_", ".csv"},          ResultPattern{"bins_", ".svg"},     ResultPattern{"bins_", ".png"},
-    ResultPattern{"particles_", ".vtp"},     ResultPattern{"walls_", ".vtp"},    ResultPattern{"run", ".pvd"},
-    ResultPattern{"checkpoint", ".h5"},      ResultPattern{"report", ".html"},   ResultPattern{"ccp_", ".h5"},
-    ResultPattern{"checkpoint", ".h5.part"}, ResultPattern{"run", ".json.part"}, ResultPattern{kMarker, ""},
+    ResultPattern{"run", ".json"},       ResultPattern{"steps", ".csv"},  ResultPattern{"removed", ".csv"},
+    ResultPattern{"bins_", ".csv"},      ResultPattern{"bins_", ".svg"},  ResultPattern{"bins_", ".png"},
+    ResultPattern{"particles_", ".vtp"}, ResultPattern{"walls_", ".vtp"}, ResultPattern{"spheres", ".pvd"},
+    ResultPattern{"spheres_", ".vtp"},   ResultPattern{"run", ".pvd"},    ResultPattern{"checkpoint", ".h5"},
+    ResultPattern{"report", ".html"},    ResultPattern{"ccp_", ".h5"},    ResultPattern{"checkpoint", ".h5.part"},
+    ResultPattern{"run", ".json.part"},  ResultPattern{kMarker, ""},
 };
 
 void remove_old_results(const fs::path& folder) {
