@@ -15,14 +15,20 @@ const CLI::App& active(const CLI::App& app) {
   return app;
 }
 
+std::vector<std::string> subcommands_of(const CLI::App& app) {
+  std::vector<std::string> words;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    words.push_back(sub->get_name());
+  }
+  return words;
+}
+
 /// Everything that may stand where the user wrote something else: options and subcommands.
 std::vector<std::string> words_of(const CLI::App& app) {
-  std::vector<std::string> words;
+  std::vector<std::string> words = subcommands_of(app);
   for (const CLI::Option* option : app.get_options()) {
     if (!option->get_lnames().empty()) words.push_back("--" + option->get_lnames().front());
   }
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    words.push_back(sub->get_name());
   return words;
 }
 
@@ -34,6 +40,10 @@ std::string full_name(const CLI::App& app) {
 Error usage_error(const CLI::App& app, const CLI::ParseError& problem) {
   const CLI::App& command = active(app);
   std::string sentence = problem.what();
+  if (problem.get_name() == "RequiredError" && command.get_parent() == nullptr) {
+    const std::vector<std::string> words = subcommands_of(command);
+    sentence = "say what to do: " + list_of(words);
+  }
   const std::vector<std::string> unexpected = app.remaining(true);
   if (!unexpected.empty()) {
     sentence = "'" + unexpected.front() + "' is not understood here";
@@ -51,7 +61,10 @@ int run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", std::string{"scree "} + SCREE_VERSION);
   app.failure_message([](const CLI::App*, const CLI::Error&) { return std::string{}; });
   int exit_code = 0;
+  add_run_command(app, exit_code);
+  add_check_command(app, exit_code);
   add_plugins_command(app, exit_code);
+  add_schema_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version

@@ -1,0 +1,144 @@
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include "scree/interfaces/build_fingerprint.hpp"
+#include "scree/model/body_store.hpp"
+
+namespace scree {
+namespace {
+
+RunRecord describe(const Simulation& simulation, const RunOptions& options) {
+  RunRecord record;
+  record.scene_file = options.scene.string();
+  record.scene_hash = simulation.scene_hash();
+  record.resolved_scene = simulation.resolved_scene();
+  record.scree_version = SCREE_VERSION;
+  record.compiler = build_fingerprint().compiler;
+  record.seed = simulation.seed();
+  record.threads = options.threads;
+  record.time_step = simulation.time_step();
+  for (const PartInfo& part : simulation.parts()) {
+    record.plugins.push_back({part.kind, part.type, part.version, part.library});
+  }
+  record.log = simulation.log();
+  return record;
+}
+
+}  // namespace
+
+Run::Run(Simulation& simulation, const RunOptions& options)
+    : simulation_{simulation},
+      options_{options},
+      step_log_{options.output / "steps.csv", phase_names()},
+      removed_log_{options.output / "removed.csv", simulation.materials()},
+      progress_{options.quiet, simulation.time(), simulation.end_time()},
+      last_checkpoint_{simulation.time()},
+      record_{describe(simulation, options)} {}
+
+int Run::to_the_end() {
+  const InterruptWatch watch;
+  try {
+    const bool done = steps_to_the_end(watch);
+    const std::string outcome = fmt::format("{} at {:.6g} s", done ? "done" : "interrupted", simulation_.time());
+    const int exit_code = done ? 0 : kInterrupted;
+    finish(exit_code, outcome);
+    print_end(outcome);
+    return exit_code;
+  } catch (const Error& failure) {
+    progress_.end_line();
+    finish_failed(failure);
+    throw;
+  }
+}
+
+bool Run::steps_to_the_end(const InterruptWatch& watch) {
+  while (!simulation_.is_done()) {
+    if (watch.interrupted()) return false;
+    const StepRecord step = simulation_.step();
+    const PhaseTimer::Scope scope{simulation_.timer(), Phase::output};
+    after_step(step);
+  }
+  return true;
+}
+
+void Run::after_step(const StepRecord& step) {
+  statistics_.add(step);
+  removed_log_.add(simulation_.removed());
+  if (step.step % static_cast<std::uint64_t>(simulation_.steps_every()) == 0 || simulation_.is_done()) {
+    step_log_.add(step, simulation_.timer().take());
+  }
+  const double interval = simulation_.checkpoint_interval();
+  if (interval > 0.0 && simulation_.time() - last_checkpoint_ > interval - 0.5 * simulation_.time_step()) {
+    save_checkpoint();
+  }
+  progress_.update(progress_state(step));
+}
+
+void Run::save_checkpoint() {
+  simulation_.save(options_.output / "checkpoint.h5");
+  last_checkpoint_ = simulation_.time();
+}
+
+void Run::finish(int exit_code, const std::string& outcome) {
+  progress_.end_line();
+  // Before the observers end: what continues from here finds them in the middle of their work.
+  save_checkpoint();
+  simulation_.finish();
+  step_log_.close();
+  removed_log_.close();
+  write_record(exit_code, outcome);
+}
+
+/// Saves what can be saved. A second failure, on a full disk say, would only hide the first.
+void Run::finish_failed(const Error& failure) {
+  const auto attempt = [](const auto& call) {
+    try {
+      call();
+    } catch (const std::exception&) {
+    }
+  };
+  if (failure.kind() == ErrorKind::diverged) {
+    attempt([&] { save_checkpoint(); });
+    attempt([&] { simulation_.finish(); });
+  }
+  attempt([&] { write_record(failure.exit_code(), failure.what()); });
+}
+
+void Run::write_record(int exit_code, const std::string& outcome) {
+  record_.exit_status = exit_code;
+  record_.outcome = outcome;
+  record_.simulated_time = simulation_.time();
+  record_.steps = simulation_.steps();
+  record_.wall_time = wall_time();
+  record_.bodies = simulation_.bodies().size();
+  record_.contacts = statistics_.last().contacts;
+  record_.state_hash = simulation_.state_hash();
+  record_.measures = statistics_.measures();
+  const std::vector<std::string> names = phase_names();
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    record_.phase_seconds.emplace_back(names[p], simulation_.timer().total()[p]);
+  }
+  record_.tables = {balance_table(simulation_)};
+  for (ReportTable& table : simulation_.report()) record_.tables.push_back(std::move(table));
+  write_run_record(record_, options_.output / "run.json");
+}
+
+void Run::print_end(const std::string& outcome) const {
+  for (const ReportTable& table : record_.tables) fmt::print("\n{}", to_text(table));
+  if (options_.profile) fmt::print("\n{}", to_text(phase_table(simulation_.timer())));
+  fmt::print("\n{}, {} steps in {}, state {}; results in {}\n", outcome, record_.steps,
+             duration_text(record_.wall_time), to_hex(record_.state_hash), options_.output.string());
+}
+
+double Run::wall_time() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+ProgressState Run::progress_state(const StepRecord& step) const {
+  return {
+      step.time,  simulation_.end_time(), step.bodies, step.contacts, static_cast<int>(step.iterations), step.residual,
+      wall_time()};
+}
+
+}  // namespace scree

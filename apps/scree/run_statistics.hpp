@@ -1,0 +1,46 @@
+// RunStatistics: numbers about a whole run, for run.json and the terminal.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scree/interfaces/observer.hpp"
+#include "scree/results/step_log.hpp"
+#include "scree/simulation/simulation.hpp"
+
+namespace scree {
+
+/// Means and extremes over the steps of a run.
+class RunStatistics {
+ public:
+  void add(const StepRecord& step);
+  /// Name with unit, and value.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> measures() const;
+  [[nodiscard]] const StepRecord& last() const { return last_; }
+
+ private:
+  StepRecord last_;
+  std::uint64_t steps_ = 0;
+  std::uint64_t steps_in_contact_ = 0;
+  std::uint64_t most_contacts_ = 0;
+  std::uint64_t most_bodies_ = 0;
+  double contacts_ = 0.0;          // sum over steps [1]
+  double iterations_ = 0.0;        // sum over steps with contacts [1]
+  double residual_ = 0.0;          // sum over steps with contacts [m/s]
+  double largest_residual_ = 0.0;  // [m/s]
+  double mean_penetration_ = 0.0;  // sum over steps, weighted with contacts [1]
+  double max_penetration_ = 0.0;   // [m]
+};
+
+/// Per material: fed, in flight, removed, by number and mass. In flight is counted from the bodies themselves.
+[[nodiscard]] ReportTable balance_table(const Simulation& simulation);
+
+/// Seconds and share by phase of a step.
+[[nodiscard]] ReportTable phase_table(const PhaseTimer& timer);
+
+/// A table for the terminal: title, header, rows; columns of numbers to the right.
+[[nodiscard]] std::string to_text(const ReportTable& table);
+
+}  // namespace scree
