@@ -72,8 +72,9 @@ TEST(plugin_file, a_made_plugin_is_its_interface_across_the_library_boundary) {
 TEST(plugin_file, refuses_a_missing_file) { EXPECT_EQ(refusal_of(fixture("nowhere")), "there is no such plugin file"); }
 
 TEST(plugin_file, refuses_a_text_file) {
-  EXPECT_EQ(refusal_of(fixture("text")),
-            "this is not a shared library that can be loaded (invalid ELF header); build plugins with scree_add_plugin()");
+  EXPECT_EQ(
+      refusal_of(fixture("text")),
+      "this is not a shared library that can be loaded (invalid ELF header); build plugins with scree_add_plugin()");
 }
 
 TEST(plugin_file, refuses_a_library_without_the_symbol) {
