@@ -30,6 +30,22 @@ bool can_meet(const ColliderMotion& a, const ColliderMotion& b, const Aabb& tigh
   return overlap(expanded(tight_a, reach), tight_b);
 }
 
+/// Which bodies have a kind of primitive: none, one or several.
+struct Holders {
+  std::size_t first = 0;
+  int count = 0;  // of different bodies, up to two
+
+  void add(std::size_t body) {
+    if (count == 0) first = body;
+    if (count == 0 || (count == 1 && body != first)) ++count;
+  }
+};
+
+/// True when a body of `a` and another one of `b` exist.
+bool can_differ(const Holders& a, const Holders& b) {
+  return a.count > 0 && b.count > 0 && (a.count > 1 || b.count > 1 || a.first != b.first);
+}
+
 }  // namespace
 
 CollisionPipeline::CollisionPipeline(const ShapeSet& shapes, BroadPhase& broad, std::vector<NarrowPhase*> chain,
@@ -53,20 +69,20 @@ void CollisionPipeline::bind_new_shapes() {
 }
 
 void CollisionPipeline::check_support(const BodyView& bodies) const {
-  std::array<bool, kShapeKindCount> present{};
-  std::array<bool, kShapeKindCount> moving{};
+  std::array<Holders, kShapeKindCount> present{};
+  std::array<Holders, kShapeKindCount> moving{};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const Primitive& primitive : shapes_.primitives(shapes_.shapes()[bodies.shape[i]])) {
       if (!primitive.collides) continue;
-      present[index(primitive.kind)] = true;
-      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive.kind)] = true;
+      present[index(primitive.kind)].add(i);
+      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive.kind)].add(i);
     }
   }
   for (std::size_t a = 0; a < kShapeKindCount; ++a) {
     for (std::size_t b = 0; b < kShapeKindCount; ++b) {
       // Planes never meet planes: both are half spaces without an edge.
       const bool planes = a == index(ShapeKind::plane) && b == index(ShapeKind::plane);
-      if (moving[a] && present[b] && !planes && phase_[a][b] < 0) {
+      if (phase_[a][b] < 0 && !planes && can_differ(moving[a], present[b])) {
         throw unsupported(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
       }
     }
