@@ -31,6 +31,10 @@ std::vector<SchemaSection> schema_sections(const PluginHost& host) {
     described.is_named = section.form == SectionForm::named;
     described.parameters = section.parameters;
     described.plugins = plugins_of(host, section.name);
+    if (section.name == "shape") {  // core's own types choose the settings as plugins do
+      for (const Variant& shape : shape_variants())
+        described.plugins.push_back({shape.type, shape.help, shape.members});
+    }
     sections.push_back(std::move(described));
   }
   return sections;
