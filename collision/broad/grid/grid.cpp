@@ -1,5 +1,9 @@
 #include "grid.hpp"
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -19,14 +23,13 @@ constexpr std::uint32_t kBinsPerOctave = 8;
 std::uint32_t bin_of(float size) { return std::bit_cast<std::uint32_t>(size) >> 20; }
 float lower_edge_of(std::uint32_t bin) { return std::bit_cast<float>(bin << 20); }
 
-/// Rounded down (up) by more than the conversion to float can err.
+/// Rounded down by more than the conversion to float can err.
 float rounded_down(double x) {
   const auto f = static_cast<float>(x);
   return f - (std::abs(f) * 2.5e-7f + std::numeric_limits<float>::min());
 }
-float rounded_up(double x) { return -rounded_down(-x); }
 
-double centre(float lower, float upper) { return 0.5 * (double{lower} + double{upper}); }
+double centre(float lower, float minus_upper) { return 0.5 * (double{lower} - double{minus_upper}); }
 
 }  // namespace
 
@@ -42,11 +45,11 @@ void Grid::copy_boxes(const BoxView& boxes, const Executor& executor) {
       const Vec3 upper = boxes.box[i].upper - origin_;
       Item& item = items_[i];
       item.lower = {rounded_down(lower.x), rounded_down(lower.y), rounded_down(lower.z)};
-      item.upper = {rounded_up(upper.x), rounded_up(upper.y), rounded_up(upper.z)};
+      item.minus_upper = {rounded_down(-upper.x), rounded_down(-upper.y), rounded_down(-upper.z)};
       item.box = static_cast<std::uint32_t>(i) | (boxes.movable[i] != 0 ? kMovable : 0u);
       item.owner = boxes.owner[i];
-      size_[i] =
-          std::max({item.upper[0] - item.lower[0], item.upper[1] - item.lower[1], item.upper[2] - item.lower[2]});
+      size_[i] = 0.0f;
+      for (std::size_t k = 0; k < 3; ++k) size_[i] = std::max(size_[i], -item.minus_upper[k] - item.lower[k]);
     }
   });
 }
@@ -107,7 +110,7 @@ void Grid::fit_levels(const Executor& executor) {
       Extent& extent = extents[l];
       ++extent.boxes;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t cell = levels_[l].cell_of(centre(items_[i].lower[k], items_[i].upper[k]));
+        const std::int32_t cell = levels_[l].cell_of(centre(items_[i].lower[k], items_[i].minus_upper[k]));
         extent.lower[k] = std::min(extent.lower[k], cell);
         extent.upper[k] = std::max(extent.upper[k], cell);
       }
@@ -139,7 +142,7 @@ void Grid::sort_into_cells(const Executor& executor) {
       const grid::Level& level = levels_[level_of(size_[i])];
       std::array<std::uint32_t, 3> at;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t cell = level.cell_of(centre(items_[i].lower[k], items_[i].upper[k]));
+        const std::int32_t cell = level.cell_of(centre(items_[i].lower[k], items_[i].minus_upper[k]));
         at[k] = level.axis[k].store(cell - level.axis[k].origin);
       }
       item_cell_[i] = level.index(at[0], at[1], at[2]);
@@ -152,25 +155,46 @@ void Grid::sort_into_cells(const Executor& executor) {
   for (std::size_t i = 0; i < items_.size(); ++i) sorted_[cell_begin_[item_cell_[i] + 1]++] = items_[i];
 }
 
-void Grid::scan(const Item& item, std::uint32_t first, std::uint32_t last, std::vector<CandidatePair>& out) const {
-  for (std::uint32_t k = first; k < last; ++k) {
-    const Item& other = sorted_[k];
-    // No early way out: one well-predicted branch instead of six bad ones.
-    const bool meet = (item.lower[0] <= other.upper[0]) & (other.lower[0] <= item.upper[0]) &
-                      (item.lower[1] <= other.upper[1]) & (other.lower[1] <= item.upper[1]) &
-                      (item.lower[2] <= other.upper[2]) & (other.lower[2] <= item.upper[2]);
-    if (!meet) continue;
-    if (((item.box | other.box) & kMovable) == 0 || item.owner == other.owner) continue;
-    out.push_back({item.box & ~kMovable, other.box & ~kMovable});
+/// `query` holds the upper corner, and minus the lower one, in the places of `item`'s lower and minus upper corner.
+bool Grid::meets(const Item& query, const Item& item) {
+#ifdef __AVX__
+  const __m256 limit = _mm256_load_ps(query.lower.data());
+  const __m256 corners = _mm256_load_ps(item.lower.data());
+  // Six of the eight numbers are coordinates.
+  return (_mm256_movemask_ps(_mm256_cmp_ps(corners, limit, _CMP_LE_OQ)) & 0x77) == 0x77;
+#else
+  bool meet = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    meet &= (item.lower[k] <= query.lower[k]) & (item.minus_upper[k] <= query.minus_upper[k]);
   }
+  return meet;
+#endif
 }
 
-void Grid::search_level(const Item& item, const grid::Level& level, std::uint32_t begin,
-                        std::vector<CandidatePair>& out) const {
+void Grid::scan(const Item& item, std::uint32_t first, std::uint32_t last, Pairs& out) const {
+  if (first >= last) return;
+  if (out.buffer.size() < out.count + (last - first)) out.buffer.resize(2 * (out.count + (last - first)));
+  Item query = item;
+  for (std::size_t k = 0; k < 3; ++k) {
+    query.lower[k] = -item.minus_upper[k];
+    query.minus_upper[k] = -item.lower[k];
+  }
+  // Every pair is written, and overwritten by the next one unless it counts: a branch here would be guessed wrong often.
+  CandidatePair* const pairs = out.buffer.data();
+  std::size_t count = out.count;
+  for (std::uint32_t k = first; k < last; ++k) {
+    const Item& other = sorted_[k];
+    pairs[count] = {item.box & ~kMovable, other.box & ~kMovable};
+    count += meets(query, other) & (((item.box | other.box) & kMovable) != 0) & (item.owner != other.owner);
+  }
+  out.count = count;
+}
+
+void Grid::search_level(const Item& item, const grid::Level& level, std::uint32_t begin, Pairs& out) const {
   std::array<grid::CellRange, 3> range;
   for (std::size_t k = 0; k < 3; ++k) {
     range[k] = level.axis[k].clip(level.cell_of(double{item.lower[k]} - 0.5 * level.cell),
-                                  level.cell_of(double{item.upper[k]} + 0.5 * level.cell));
+                                  level.cell_of(0.5 * level.cell - double{item.minus_upper[k]}));
     if (range[k].last < range[k].first) return;
   }
   const grid::LevelAxis& x_axis = level.axis[0];
@@ -193,7 +217,7 @@ void Grid::search_level(const Item& item, const grid::Level& level, std::uint32_
   }
 }
 
-void Grid::search(std::size_t first, std::size_t last, std::vector<CandidatePair>& out) const {
+void Grid::search(std::size_t first, std::size_t last, Pairs& out) const {
   std::size_t own = 0;
   for (std::size_t i = first; i < last; ++i) {
     while (own + 1 < level_count_ && i >= cell_begin_[levels_[own + 1].first_cell]) ++own;
@@ -215,11 +239,14 @@ void Grid::find_pairs(const BoxView& boxes, const Executor& executor, std::vecto
   const std::size_t chunks = Executor::chunk_count(sorted_.size(), kSearchesPerChunk);
   if (chunk_pairs_.size() < chunks) chunk_pairs_.resize(chunks);
   executor.for_chunks(sorted_.size(), kSearchesPerChunk, [&](std::size_t first, std::size_t last) {
-    std::vector<CandidatePair>& pairs = chunk_pairs_[first / kSearchesPerChunk];
-    pairs.clear();
+    Pairs& pairs = chunk_pairs_[first / kSearchesPerChunk];
+    pairs.count = 0;
     search(first, last, pairs);
   });
-  for (std::size_t k = 0; k < chunks; ++k) out.insert(out.end(), chunk_pairs_[k].begin(), chunk_pairs_[k].end());
+  for (std::size_t k = 0; k < chunks; ++k) {
+    const Pairs& pairs = chunk_pairs_[k];
+    out.insert(out.end(), pairs.buffer.begin(), pairs.buffer.begin() + static_cast<std::ptrdiff_t>(pairs.count));
+  }
 }
 
 }  // namespace scree

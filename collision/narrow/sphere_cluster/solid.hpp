@@ -12,7 +12,7 @@
 namespace scree::sphere_cluster {
 
 /// A primitive, reduced. Ranges point into the SolidSet's own buffers.
-struct Solid {
+struct alignas(64) Solid {
   ShapeKind kind = ShapeKind::sphere;
   bool hollow = false;
   std::uint32_t first_sphere = 0, sphere_count = 0;  ///< of a sphere (one) or a cluster

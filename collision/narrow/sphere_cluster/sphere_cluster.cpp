@@ -16,6 +16,9 @@ constexpr unsigned kSphereShift = 48;
 /// The same for the first of two clusters.
 constexpr unsigned kPairShift = 24;
 
+/// Pairs ahead of the present one whose second collider is fetched into the cache.
+constexpr std::size_t kPrefetch = 12;
+
 /// Buffers of one collide() call.
 struct Scratch {
   MeshScratch mesh;
@@ -148,7 +151,13 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
                             ContactBuffer& out) const {
   using namespace sphere_cluster;
   Scratch scratch;
-  for (const ColliderPair& pair : pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (k + kPrefetch < pairs.size()) {
+      const ColliderIndex next = pairs[k + kPrefetch].b;
+      __builtin_prefetch(&colliders.pose[next]);
+      __builtin_prefetch(&set_.solids[colliders.primitive[next]]);
+    }
+    const ColliderPair& pair = pairs[k];
     const Solid& a = set_.solids[colliders.primitive[pair.a]];
     const Solid& b = set_.solids[colliders.primitive[pair.b]];
     const Pose& pose_a = colliders.pose[pair.a];

@@ -13,25 +13,11 @@ constexpr std::size_t kBodiesPerChunk = 2048;
 /// Low bits of a collider's key hold the ordinal of the primitive.
 constexpr unsigned kOrdinalBits = 16;
 
-ColliderMotion motion_of(const Primitive& primitive, const Pose& pose, const Vec3& body_centre, const Vec3& velocity,
-                         const Vec3& spin) {
-  ColliderMotion m;
-  m.kind = primitive.kind;
-  m.centre = pose.position;
-  m.radius = primitive.bounding_radius;
-  m.velocity = velocity + cross(spin, pose.position - body_centre);
-  if (primitive.kind != ShapeKind::sphere) {
-    m.spin = spin;
-    m.turn_radius = primitive.bounding_radius;
-  }
-  return m;
-}
-
 /// The tight box grown by turning (never beyond the bounding sphere), then swept
 /// along the motion of its centre, plus this collider's half of the slack.
-Aabb swept_box(const Aabb& tight, const ColliderMotion& m, const ReachRule& rule) {
+Aabb swept_box(const Aabb& tight, const ColliderMotion& m, const ColliderSpin& spin, const ReachRule& rule) {
   Aabb box = tight;
-  const double turn = rule.dt * norm(m.spin) * m.turn_radius;
+  const double turn = rule.dt * norm(spin.spin) * spin.turn_radius;
   if (turn > 0.0) {
     const Aabb grown = expanded(tight, turn);
     const Aabb ball = expanded(Aabb{m.centre, m.centre}, m.radius);
@@ -46,13 +32,16 @@ Aabb swept_box(const Aabb& tight, const ColliderMotion& m, const ReachRule& rule
 
 }  // namespace
 
-double reach_of(const ColliderMotion& a, const ColliderMotion& b, const ReachRule& rule) {
+double reach_of(const ColliderMotion& a, const ColliderSpin& spin_a, const ColliderMotion& b,
+                const ColliderSpin& spin_b, const ReachRule& rule) {
   const bool a_smaller = a.radius <= b.radius;
   const ColliderMotion& small = a_smaller ? a : b;
   const ColliderMotion& large = a_smaller ? b : a;
-  const Vec3 approach = small.velocity - large.velocity - cross(large.spin, small.centre - large.centre);
+  const ColliderSpin& small_spin = a_smaller ? spin_a : spin_b;
+  const ColliderSpin& large_spin = a_smaller ? spin_b : spin_a;
+  const Vec3 approach = small.velocity - large.velocity - cross(large_spin.spin, small.centre - large.centre);
   double speed = norm(approach);
-  if (small.turn_radius > 0.0) speed += norm(small.spin - large.spin) * small.turn_radius;
+  if (small_spin.turn_radius > 0.0) speed += norm(small_spin.spin - large_spin.spin) * small_spin.turn_radius;
   return rule.dt * speed + rule.slack * small.radius;
 }
 
@@ -75,6 +64,7 @@ void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
   tight_.resize(total);
   movable_.resize(total);
   motion_.resize(total);
+  spin_.resize(total);
 }
 
 void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity,
@@ -91,9 +81,19 @@ void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyInde
     ordinal_[at] = k;
     pose_[at] = body_pose * primitive.local;
     movable_[at] = bodies.motion[i] == Motion::dynamic;
-    motion_[at] = motion_of(primitive, pose_[at], body_pose.position, velocity, spin);
-    tight_[at] = bounds(shapes, primitive, pose_[at]);
-    box_[at] = primitive.kind == ShapeKind::plane ? Aabb::everywhere() : swept_box(tight_[at], motion_[at], rule);
+    const Vec3 centre = pose_[at].position;
+    motion_[at] = {centre,         primitive.bounding_radius, velocity + cross(spin, centre - body_pose.position), i,
+                   primitive.kind, movable_[at] != 0};
+    if (primitive.kind == ShapeKind::sphere) {
+      spin_[at] = {};
+      tight_[at] = expanded(Aabb{centre, centre}, primitive.bounding_radius);
+      box_[at] = swept_sphere(motion_[at], rule);
+    } else {
+      spin_[at] = {spin, primitive.bounding_radius};
+      tight_[at] = bounds(shapes, primitive, pose_[at]);
+      box_[at] =
+          primitive.kind == ShapeKind::plane ? Aabb::everywhere() : swept_box(tight_[at], motion_[at], spin_[at], rule);
+    }
     ++at;
   }
 }

@@ -2,6 +2,7 @@
 // far each of them can come within the step.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -12,15 +13,20 @@ namespace scree {
 
 class Executor;
 
-/// How a collider moves, as the bound on its approach to another one needs it.
-/// A sphere's own spin does not move its surface and is left out.
-struct ColliderMotion {
-  Vec3 centre;               ///< of the bounding sphere [m], world
-  double radius = 0.0;       ///< of the bounding sphere [m]; infinite for a plane
-  Vec3 velocity;             ///< of the centre [m/s], world
+/// What decides whether two colliders can meet: one cache line each, as every candidate pair reads two of them.
+struct alignas(64) ColliderMotion {
+  Vec3 centre;          ///< of the bounding sphere [m], world
+  double radius = 0.0;  ///< of the bounding sphere [m]; infinite for a plane
+  Vec3 velocity;        ///< of the centre [m/s], world
+  BodyIndex body = 0;
+  ShapeKind kind = ShapeKind::sphere;
+  bool movable = false;
+};
+
+/// How a collider turns. A sphere's own spin does not move its surface and is left out.
+struct ColliderSpin {
   Vec3 spin;                 ///< [rad/s], world; zero for a sphere
   double turn_radius = 0.0;  ///< farthest point from the centre that the spin moves [m]
-  ShapeKind kind = ShapeKind::sphere;
 };
 
 /// What decides how far ahead contacts are sought.
@@ -32,7 +38,21 @@ struct ReachRule {
 /// A bound on how much the gap of two colliders can shrink within the step [m]:
 /// relative velocity at the smaller one, plus what their relative spin does over
 /// its size, times dt; plus the slack. Bodies that move together pay nothing.
-[[nodiscard]] double reach_of(const ColliderMotion& a, const ColliderMotion& b, const ReachRule& rule);
+[[nodiscard]] double reach_of(const ColliderMotion& a, const ColliderSpin& spin_a, const ColliderMotion& b,
+                              const ColliderSpin& spin_b, const ReachRule& rule);
+/// The same for two spheres.
+[[nodiscard]] inline double reach_of_spheres(const ColliderMotion& a, const ColliderMotion& b, const ReachRule& rule) {
+  return rule.dt * norm(a.velocity - b.velocity) + rule.slack * std::min(a.radius, b.radius);
+}
+/// The box of a sphere swept along its motion and grown by its half of the slack [m], world.
+[[nodiscard]] inline Aabb swept_sphere(const ColliderMotion& m, const ReachRule& rule) {
+  const Vec3 way = rule.dt * m.velocity;
+  const double grown = m.radius + 0.5 * rule.slack * m.radius;
+  return {{m.centre.x + std::min(0.0, way.x) - grown, m.centre.y + std::min(0.0, way.y) - grown,
+           m.centre.z + std::min(0.0, way.z) - grown},
+          {m.centre.x + std::max(0.0, way.x) + grown, m.centre.y + std::max(0.0, way.y) + grown,
+           m.centre.z + std::max(0.0, way.z) + grown}};
+}
 
 /// The colliders of one step. All buffers are kept between steps.
 class ColliderSet {
@@ -45,6 +65,7 @@ class ColliderSet {
   [[nodiscard]] ColliderView view() const;
   [[nodiscard]] std::size_t size() const { return key_.size(); }
   [[nodiscard]] std::span<const ColliderMotion> motion() const { return motion_; }
+  [[nodiscard]] std::span<const ColliderSpin> spin() const { return spin_; }
   /// Boxes without the step's motion [m], world.
   [[nodiscard]] std::span<const Aabb> tight_box() const { return tight_; }
 
@@ -71,6 +92,7 @@ class ColliderSet {
   std::vector<Aabb> tight_;
   std::vector<char> movable_;
   std::vector<ColliderMotion> motion_;
+  std::vector<ColliderSpin> spin_;
 
   bool all_bounded_ = true;
   std::vector<ColliderIndex> unbounded_;

@@ -21,13 +21,13 @@ Error unsupported(ShapeKind a, ShapeKind b) {
                                      "collides = false."};
 }
 
-/// True when two bounded colliders may come within `reach` of each other.
-bool can_meet(const ColliderMotion& a, const ColliderMotion& b, const Aabb& tight_a, const Aabb& tight_b,
-              double reach) {
+/// Candidates ahead of the present one whose records are fetched into the cache.
+constexpr std::size_t kPrefetch = 16;
+
+/// True when the bounding spheres come within `reach` of each other.
+bool spheres_meet(const ColliderMotion& a, const ColliderMotion& b, double reach) {
   const double radii = a.radius + b.radius + reach;
-  if (squared_norm(b.centre - a.centre) > radii * radii) return false;
-  if (a.kind == ShapeKind::sphere && b.kind == ShapeKind::sphere) return true;
-  return overlap(expanded(tight_a, reach), tight_b);
+  return squared_norm(b.centre - a.centre) <= radii * radii;
 }
 
 /// Which bodies have a kind of primitive: none, one or several.
@@ -90,30 +90,45 @@ void CollisionPipeline::check_support(const BodyView& bodies) const {
 }
 
 void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const {
-  const ColliderView view = colliders_.view();
   const auto motion = colliders_.motion();
+  const auto spin = colliders_.spin();
+  const auto box = colliders_.view().box;
   const auto tight = colliders_.tight_box();
   for (std::size_t k = first; k < last; ++k) {
+    if (k + kPrefetch < last) {
+      __builtin_prefetch(&motion[colliders_.bounded_index(candidates_[k + kPrefetch].a)]);
+      __builtin_prefetch(&motion[colliders_.bounded_index(candidates_[k + kPrefetch].b)]);
+    }
     const ColliderIndex one = colliders_.bounded_index(candidates_[k].a);
     const ColliderIndex two = colliders_.bounded_index(candidates_[k].b);
     const ColliderIndex a = std::min(one, two);
     const ColliderIndex b = std::max(one, two);
-    if (!overlap(view.box[a], view.box[b])) continue;
-    if (view.body[a] == view.body[b] || (view.movable[a] == 0 && view.movable[b] == 0)) continue;
-    const double reach = reach_of(motion[a], motion[b], rule_);
-    if (can_meet(motion[a], motion[b], tight[a], tight[b], reach)) out.push_back({a, b, reach});
+    const ColliderMotion& ma = motion[a];
+    const ColliderMotion& mb = motion[b];
+    if (ma.body == mb.body || (!ma.movable && !mb.movable)) continue;
+    // Boxes of spheres are cheaper to compute than to read.
+    if (ma.kind == ShapeKind::sphere && mb.kind == ShapeKind::sphere) {
+      const double reach = reach_of_spheres(ma, mb, rule_);
+      if (!spheres_meet(ma, mb, reach)) continue;
+      if (overlap(swept_sphere(ma, rule_), swept_sphere(mb, rule_))) out.push_back({a, b, reach});
+    } else {
+      const double reach = reach_of(ma, spin[a], mb, spin[b], rule_);
+      if (!spheres_meet(ma, mb, reach) || !overlap(box[a], box[b])) continue;
+      if (overlap(expanded(tight[a], reach), tight[b])) out.push_back({a, b, reach});
+    }
   }
 }
 
 void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::vector<ColliderPair>& out) const {
   const ColliderView view = colliders_.view();
   const auto motion = colliders_.motion();
+  const auto spin = colliders_.spin();
   const Pose& pose = view.pose[plane];
   const Vec3 normal = rotate(pose.orientation, {0, 0, 1});
   for (ColliderIndex other = 0; other < view.size(); ++other) {
-    if (view.movable[other] == 0 && view.movable[plane] == 0) continue;
-    if (motion[other].kind == ShapeKind::plane || view.body[other] == view.body[plane]) continue;
-    const double reach = reach_of(motion[other], motion[plane], rule_);
+    if (!motion[other].movable && !motion[plane].movable) continue;
+    if (motion[other].kind == ShapeKind::plane || motion[other].body == motion[plane].body) continue;
+    const double reach = reach_of(motion[other], spin[other], motion[plane], spin[plane], rule_);
     const double height = dot(normal, motion[other].centre - pose.position);
     // Written so that a collider with NaN meets nothing.
     if (!(height - motion[other].radius <= reach)) continue;
