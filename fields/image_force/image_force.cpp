@@ -138,14 +138,15 @@ void ImageForce::update_charges(const BodyView& bodies, Attributes& attributes, 
       if (bodies.motion[first] != Motion::dynamic || metal[first] >= 1.0) continue;
       const Vec3& x = bodies.position[first];
       const RollCoordinates there = to_roll(roll_, x);
-      if (in_any(discharge_zones_, x, there)) {
+      const bool charging = in_any(charging_zones_, x, there);
+      const bool too_old =
+          !charging && discharge_contact_age_ >= 0.0 && attributes.column(contact_age_)[first] > discharge_contact_age_;
+      if (too_old || in_any(discharge_zones_, x, there)) {
         charge[first] = 0.0;
-      } else if (in_any(charging_zones_, x, there)) {
+      } else if (charging) {
         index[count] = first;
         centre[count] = x;
         radial[count++] = there.radial;
-      } else if (discharge_contact_age_ >= 0.0 && attributes.column(contact_age_)[first] > discharge_contact_age_) {
-        charge[first] = 0.0;
       }
     }
     field_->evaluate({centre.data(), count}, time, {field.data(), count}, {});
