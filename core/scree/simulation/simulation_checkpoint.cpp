@@ -95,6 +95,40 @@ std::string describe(const SceneModel& model, const Parts& parts, double toleran
   return json + "\n}";
 }
 
+/// Bodies that observers have not heard of yet: their removal is told in the next step.
+void save_removed(const std::vector<RemovedBody>& removed, StateWriter& out) {
+  std::vector<std::uint64_t> id, material;
+  std::vector<double> mass, time;
+  std::vector<Vec3> position;
+  out.write("count", std::uint64_t{removed.size()});
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    id.push_back(removed[i].id);
+    material.push_back(removed[i].material);
+    mass.push_back(removed[i].mass);
+    time.push_back(removed[i].time);
+    position.push_back(removed[i].position);
+    out.write("sink_" + std::to_string(i), std::string_view{removed[i].sink});
+    out.write("reason_" + std::to_string(i), std::string_view{removed[i].reason});
+  }
+  out.write("id", std::span<const std::uint64_t>{id});
+  out.write("material", std::span<const std::uint64_t>{material});
+  out.write("mass", std::span<const double>{mass});
+  out.write("time", std::span<const double>{time});
+  out.write("position", std::span<const Vec3>{position});
+}
+
+std::vector<RemovedBody> load_removed(const StateReader& in) {
+  const std::vector<std::uint64_t> id = in.integers("id"), material = in.integers("material");
+  const std::vector<double> mass = in.doubles("mass"), time = in.doubles("time");
+  const std::vector<Vec3> position = in.vectors("position");
+  std::vector<RemovedBody> removed;
+  for (std::size_t i = 0; i < in.integer("count"); ++i) {
+    removed.push_back({id.at(i), static_cast<std::uint32_t>(material.at(i)), mass.at(i), time.at(i), position.at(i),
+                       in.text("sink_" + std::to_string(i)), in.text("reason_" + std::to_string(i))});
+  }
+  return removed;
+}
+
 std::string group_name(const PartInfo& info) { return info.kind + ":" + info.name; }
 
 }  // namespace
@@ -124,6 +158,7 @@ void Simulation::State::save_to(StateWriter& out) const {
   }
   run->write("amount_counts", std::span<const std::uint64_t>{counts});
   run->write("amount_masses", std::span<const double>{masses});
+  save_removed(removed, *out.group("removed"));
   model.shapes.save(*out.group("shapes"));
   bodies.save(*out.group("bodies"));
   parts.for_each([&](const PartInfo& info, const Options&, Plugin& plugin) {
@@ -150,6 +185,7 @@ void Simulation::State::restore_from(const StateReader& in) {
     feed.fed[m] = {counts[m], masses[m]};
     feed.removed[m] = {counts[materials + m], masses[materials + m]};
   }
+  removed = load_removed(*in.group("removed"));
   model.shapes.load(*in.group("shapes"));
   bodies.load(*in.group("bodies"));
   parts.for_each([&](const PartInfo& info, const Options&, Plugin& plugin) {

@@ -95,6 +95,25 @@ TEST(Simulation, continues_from_a_checkpoint_bit_for_bit) {
   std::filesystem::remove(file);
 }
 
+// Observers hear of a removal in the step after it: the checkpoint between the two must not swallow it.
+TEST(Simulation, a_checkpoint_keeps_the_removals_that_observers_have_not_heard_of) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(scene(kFedScene));
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "scree_removed_test.h5";
+  Simulation whole{document, catalog, {}};
+  for (int step = 0; step < 10; ++step) whole.step();
+  whole.save(file);
+  Simulation second{document, catalog, {}};
+  second.resume(file);
+  ASSERT_EQ(second.removed().size(), 1u);
+  EXPECT_EQ(second.removed()[0].id, whole.removed()[0].id);
+  EXPECT_EQ(second.removed()[0].position, whole.removed()[0].position);
+  EXPECT_EQ(second.removed()[0].time, whole.removed()[0].time);
+  EXPECT_EQ(second.removed()[0].sink, "gate");
+  EXPECT_EQ(second.removed()[0].reason, "passed the gate");
+  std::filesystem::remove(file);
+}
+
 TEST(Simulation, refuses_the_checkpoint_of_another_scene) {
   const Catalog catalog;
   const SceneDocument one = SceneDocument::parse(scene(kFedScene));

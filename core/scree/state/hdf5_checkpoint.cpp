@@ -178,7 +178,7 @@ class GroupReader final : public StateReader {
 Handle make_image() {
   silence_hdf5();
   const Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
-  H5Pset_fapl_core(access.get(), kMemoryIncrement, 0);
+  H5Pset_fapl_core(access.get(), kMemoryIncrement, false);
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
   // The newer file format has check sums on everything that is not a dataset.
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V110);

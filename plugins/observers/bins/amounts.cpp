@@ -7,23 +7,23 @@
 
 namespace scree {
 
-void AmountTable::add(CategoryMask mask, std::size_t column, double mass) {
+void TallyTable::add(CategoryMask mask, std::size_t column, double mass) {
   for (CategoryMask left = mask; left != 0; left &= left - 1) {
     const auto category = static_cast<std::size_t>(std::countr_zero(left));
     amounts_[category * columns_ + column] += {1, mass};
   }
 }
 
-Amount AmountTable::sum(std::size_t category) const {
-  Amount total;
+Tally TallyTable::sum(std::size_t category) const {
+  Tally total;
   for (std::size_t column = 0; column < columns_; ++column) total += at(category, column);
   return total;
 }
 
-void AmountTable::save(StateWriter& out, std::string_view name) const {
+void TallyTable::save(StateWriter& out, std::string_view name) const {
   std::vector<std::uint64_t> numbers;
   std::vector<double> masses;
-  for (const Amount& amount : amounts_) {
+  for (const Tally& amount : amounts_) {
     numbers.push_back(amount.number);
     masses.push_back(amount.mass);
   }
@@ -32,7 +32,7 @@ void AmountTable::save(StateWriter& out, std::string_view name) const {
   group->write("mass", masses);
 }
 
-void AmountTable::load(const StateReader& in, std::string_view name) {
+void TallyTable::load(const StateReader& in, std::string_view name) {
   const auto group = in.group(name);
   const std::vector<std::uint64_t> numbers = group->integers("number");
   const std::vector<double> masses = group->doubles("mass");

@@ -1,4 +1,4 @@
-// Amounts by category: how many bodies and how much mass of each material and each target.
+// Tallies by category: how many bodies and how much mass of each material and each target.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ class StateReader;
 class StateWriter;
 
 /// Bodies and their mass.
-struct Amount {
+struct Tally {
   std::uint64_t number = 0;
   double mass = 0.0;  ///< [kg]
 
-  Amount& operator+=(const Amount& other) {
+  Tally& operator+=(const Tally& other) {
     number += other.number;
     mass += other.mass;
     return *this;
@@ -27,22 +27,22 @@ struct Amount {
 using CategoryMask = std::uint64_t;
 inline constexpr std::size_t kMostCategories = 64;
 
-/// A table of amounts: one row per category, one column per bin, product, or single.
-class AmountTable {
+/// A table of tallies: one row per category, one column per bin, product, or single.
+class TallyTable {
  public:
-  AmountTable() = default;
-  AmountTable(std::size_t categories, std::size_t columns) : columns_{columns}, amounts_(categories * columns) {}
+  TallyTable() = default;
+  TallyTable(std::size_t categories, std::size_t columns) : columns_{columns}, amounts_(categories * columns) {}
 
   /// Adds one body to every category of its mask.
   void add(CategoryMask mask, std::size_t column, double mass);
 
-  [[nodiscard]] const Amount& at(std::size_t category, std::size_t column = 0) const {
+  [[nodiscard]] const Tally& at(std::size_t category, std::size_t column = 0) const {
     return amounts_[category * columns_ + column];
   }
   [[nodiscard]] std::size_t columns() const { return columns_; }
   [[nodiscard]] std::size_t categories() const { return columns_ == 0 ? 0 : amounts_.size() / columns_; }
   /// Over all columns.
-  [[nodiscard]] Amount sum(std::size_t category) const;
+  [[nodiscard]] Tally sum(std::size_t category) const;
 
   void save(StateWriter& out, std::string_view name) const;
   /// @throws Error (io) when the saved table has another size.
@@ -50,7 +50,7 @@ class AmountTable {
 
  private:
   std::size_t columns_ = 0;
-  std::vector<Amount> amounts_;
+  std::vector<Tally> amounts_;
 };
 
 }  // namespace scree

@@ -105,8 +105,8 @@ void BinsObserver::setup(SceneServices& services, const std::filesystem::path& r
   tracker_ = std::make_unique<Tracker>(
       count, [this](const BodyView& bodies, BodyIndex body) { return categorise(bodies, body); },
       [this](std::uint32_t material) { return categorise_removed(material); });
-  bins_ = AmountTable{count, collector_.bins()};
-  products_ = AmountTable{count, plan_.names.size()};
+  bins_ = TallyTable{count, collector_.bins()};
+  products_ = TallyTable{count, plan_.names.size()};
   series_ = std::make_unique<SeriesLog>(count, collector_.bins());
   series_->open(results.empty() ? results : results / ("bins_" + name_ + "_series.csv"), categories_.names);
 }
@@ -208,7 +208,9 @@ void BinsObserver::observe(const Observation& now, Attributes& attributes) {
 }
 
 void BinsObserver::finish(const Observation& last) {
-  look(last);
+  Observation end = last;
+  end.dt = 0.0;  // nothing moved since the last step: a body fed since then stands where it was born
+  look(end);
   series_->end_interval(last.time);
   if (results_.empty()) return;
   write_bins_table(result(), results_ / ("bins_" + name_ + ".csv"));

@@ -57,8 +57,8 @@ class BinsObserver final : public Observer {
   std::uint64_t steps_between_ = 1;
   std::unique_ptr<Tracker> tracker_;  // from here on made by setup()
   std::unique_ptr<SeriesLog> series_;
-  AmountTable bins_;
-  AmountTable products_;
+  TallyTable bins_;
+  TallyTable products_;
   std::vector<Binned> binned_;
   double time_ = 0.0;  // of the last look [s]
 };

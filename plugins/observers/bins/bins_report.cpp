@@ -15,12 +15,12 @@ ReportTable ledger(const BinsResult& result) {
   table.title = result.name + ": where everything went";
   table.header = {"material",       "fed",       "in flight",     "lost", "collected", "fed [kg]",
                   "in flight [kg]", "lost [kg]", "collected [kg]"};
-  const AmountTable in_flight = result.tracker.in_flight();
+  const TallyTable in_flight = result.tracker.in_flight();
   std::vector<std::size_t> rows = result.shown();
   rows.push_back(0);
   for (const std::size_t c : rows) {
-    const Amount fed = result.tracker.fed().at(c), flying = in_flight.at(c), lost = result.tracker.lost(c),
-                 collected = result.tracker.binned().at(c);
+    const Tally fed = result.tracker.fed().at(c), flying = in_flight.at(c), lost = result.tracker.lost(c),
+                collected = result.tracker.binned().at(c);
     table.rows.push_back({result.categories.names[c], std::to_string(fed.number), std::to_string(flying.number),
                           std::to_string(lost.number), std::to_string(collected.number), kilograms(fed.mass),
                           kilograms(flying.mass), kilograms(lost.mass), kilograms(collected.mass)});
@@ -34,7 +34,7 @@ ReportTable losses(const BinsResult& result) {
   table.header = {"material", "sink", "reason", "number", "mass [kg]"};
   for (const Loss& loss : result.tracker.losses()) {
     for (const std::size_t c : result.shown()) {
-      const Amount& amount = loss.amounts.at(c);
+      const Tally& amount = loss.amounts.at(c);
       if (amount.number == 0) continue;
       table.rows.push_back(
           {result.categories.names[c], loss.sink, loss.reason, std::to_string(amount.number), kilograms(amount.mass)});
@@ -43,11 +43,11 @@ ReportTable losses(const BinsResult& result) {
   return table;
 }
 
-ProductMass mass_of(const AmountTable& products, std::size_t category, std::size_t product) {
+ProductMass mass_of(const TallyTable& products, std::size_t category, std::size_t product) {
   return {products.at(category, product).mass, products.at(0, product).mass};
 }
 
-ProductMass total_of(const AmountTable& products, std::size_t category) {
+ProductMass total_of(const TallyTable& products, std::size_t category) {
   return {products.sum(category).mass, products.sum(0).mass};
 }
 

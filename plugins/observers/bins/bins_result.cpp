@@ -76,15 +76,15 @@ void write_ledger(const BinsResult& result, const std::filesystem::path& file) {
   for (const std::string& state : states) columns.push_back({"number_" + state, ""});
   for (const std::string& state : states) columns.push_back({"mass_" + state, "kg"});
   CsvWriter table{file, columns};
-  const AmountTable in_flight = result.tracker.in_flight();
+  const TallyTable in_flight = result.tracker.in_flight();
   std::vector<std::size_t> rows = result.shown();
   rows.push_back(0);
   for (const std::size_t c : rows) {
     const std::array amounts{result.tracker.fed().at(c), in_flight.at(c), result.tracker.lost(c),
                              result.tracker.binned().at(c)};
     table.cell(result.categories.names[c]);
-    for (const Amount& amount : amounts) table.cell(amount.number);
-    for (const Amount& amount : amounts) table.cell(amount.mass);
+    for (const Tally& amount : amounts) table.cell(amount.number);
+    for (const Tally& amount : amounts) table.cell(amount.mass);
     table.end_row();
   }
   table.close();
@@ -101,7 +101,7 @@ plot::Figure bins_figure(const BinsResult& result) {
               std::minmax({edge(0.0), edge(1.0)})};
   figure.y = {"share of the material's collected mass per bin [%]"};
   for (const std::size_t category : result.judged()) {
-    const Amount total = result.bins.sum(category);
+    const Tally total = result.bins.sum(category);
     plot::Series series{fmt::format("{} ({:.4g} kg)", result.categories.names[category], total.mass),
                         plot::SeriesStyle::steps,
                         {},

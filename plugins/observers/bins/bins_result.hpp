@@ -39,9 +39,9 @@ struct BinsResult {
   const Collector& collector;
   const Tracker& tracker;
   const ProductPlan& plan;
-  const AmountTable& bins;      ///< categories x bins
-  const AmountTable& products;  ///< categories x products
-  double time;                  ///< [s]
+  const TallyTable& bins;      ///< categories x bins
+  const TallyTable& products;  ///< categories x products
+  double time;                 ///< [s]
 
   /// Targets, or without any the materials, of which something was fed.
   [[nodiscard]] std::vector<std::size_t> judged() const;

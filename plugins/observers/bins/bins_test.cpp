@@ -239,6 +239,21 @@ TEST_F(bins, go_on_from_a_checkpoint_as_if_there_had_been_none) {
   EXPECT_LT(std::stod(series[1][0]), 2.0) << "rows from before the checkpoint are kept";
 }
 
+// A checkpoint may lie after the end of a run has been reported: the removals told then are told once more.
+TEST_F(bins, count_a_removal_once_however_often_they_hear_of_it) {
+  const auto observer = make("", false);
+  test::TestBodies bodies{services.attributes()};
+  bodies.add_sphere(7, {0.5, 1, 0.5}, 1e-3, 1000.0);
+  observer->observe(at(1, bodies), services.attributes());
+  const test::TestBodies none{services.attributes()};
+  const std::vector<RemovedBody> gone{{7, 0, bodies.mass[0], 0.1, {}, "floor", "fell"},
+                                      {8, 0, bodies.mass[0], 0.1, {}, "floor", "fell"}};  // 8 was never seen
+  for (std::uint64_t step = 2; step < 5; ++step) observer->observe(at(step, none, gone), services.attributes());
+  const auto ledger = observer->report().front();
+  EXPECT_EQ(ledger.rows.back()[1], "2");
+  EXPECT_EQ(ledger.rows.back()[3], "2");
+}
+
 TEST_F(bins, divide_at_the_splitter_and_judge_the_products) {
   const auto observer =
       make("splitters = ['55 cm']\nproducts = ['light', 'heavy']\nproduct_targets = ['plastic', 'copper']\n", false);

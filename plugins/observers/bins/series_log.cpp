@@ -20,13 +20,13 @@ void SeriesLog::write(const Row& row) {
 void SeriesLog::end_interval(double time) {
   for (std::size_t category = 0; category < window_.categories(); ++category) {
     for (std::size_t bin = 0; bin < window_.columns(); ++bin) {
-      const Amount& amount = window_.at(category, bin);
+      const Tally& amount = window_.at(category, bin);
       if (amount.number == 0) continue;
       rows_.push_back({time, category, bin, amount});
       write(rows_.back());
     }
   }
-  window_ = AmountTable{window_.categories(), window_.columns()};
+  window_ = TallyTable{window_.categories(), window_.columns()};
 }
 
 void SeriesLog::save(StateWriter& out) const {

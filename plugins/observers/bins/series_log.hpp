@@ -31,11 +31,11 @@ class SeriesLog {
   struct Row {
     double time;  // end of the interval [s]
     std::uint64_t category, bin;
-    Amount amount;
+    Tally amount;
   };
   void write(const Row& row);
 
-  AmountTable window_;
+  TallyTable window_;
   std::vector<Row> rows_;
   std::vector<std::string> names_;
   std::optional<CsvWriter> table_;

@@ -18,7 +18,7 @@ Tracker::Tracker(std::size_t categories, Categorise categorise, CategoriseRemove
 void Tracker::lose(const std::string& sink, const std::string& reason, CategoryMask mask, double mass) {
   auto loss = std::find_if(losses_.begin(), losses_.end(),
                            [&](const Loss& known) { return known.sink == sink && known.reason == reason; });
-  if (loss == losses_.end()) loss = losses_.insert(loss, {sink, reason, AmountTable{categories_, 1}});
+  if (loss == losses_.end()) loss = losses_.insert(loss, {sink, reason, TallyTable{categories_, 1}});
   loss->amounts.add(mask, 0, mass);
 }
 
@@ -29,6 +29,9 @@ void Tracker::account_removed(std::span<const RemovedBody> removed) {
     const auto known = std::lower_bound(tracked_.begin(), tracked_.end(), gone.id,
                                         [](const Tracked& body, BodyId id) { return body.id < id; });
     if (known == tracked_.end() || known->id != gone.id) {
+      // Ids grow: an unknown body below was accounted for already, before a checkpoint was read, say.
+      if (gone.id < next_unseen_) continue;
+      next_unseen_ = gone.id + 1;
       const CategoryMask mask = categorise_removed_(gone.material);
       fed_.add(mask, 0, gone.mass);
       lose(gone.sink, gone.reason, mask, gone.mass);
@@ -43,6 +46,7 @@ Tracker::Tracked Tracker::first_seen(const Observation& now, BodyIndex body) {
   const BodyView& bodies = now.bodies;
   const CategoryMask mask = categorise_(bodies, body);
   fed_.add(mask, 0, bodies.mass[body]);
+  next_unseen_ = std::max(next_unseen_, bodies.id[body] + 1);
   // Fed at the beginning of this step: it came from where its velocity says.
   const double passed = now.step == 0 ? 0.0 : now.dt;
   return {bodies.id[body], bodies.position[body] - passed * bodies.velocity[body], bodies.mass[body], mask, 0};
@@ -89,14 +93,14 @@ void Tracker::write_column(const BodyView& bodies, std::span<double> column) con
   }
 }
 
-Amount Tracker::lost(std::size_t category) const {
-  Amount total;
+Tally Tracker::lost(std::size_t category) const {
+  Tally total;
   for (const Loss& loss : losses_) total += loss.amounts.at(category);
   return total;
 }
 
-AmountTable Tracker::in_flight() const {
-  AmountTable amounts{categories_, 1};
+TallyTable Tracker::in_flight() const {
+  TallyTable amounts{categories_, 1};
   for (const Tracked& body : tracked_) {
     if (body.state <= 0) amounts.add(body.mask, 0, body.mass);
   }
@@ -121,6 +125,7 @@ void Tracker::save(StateWriter& out) const {
   out.write("state", state);
   fed_.save(out, "fed");
   binned_.save(out, "binned");
+  out.write("next_unseen", next_unseen_);
   out.write("losses", std::uint64_t{losses_.size()});
   for (std::size_t k = 0; k < losses_.size(); ++k) {
     const auto group = out.group("loss_" + std::to_string(k));
@@ -144,10 +149,11 @@ void Tracker::load(const StateReader& in) {
   }
   fed_.load(in, "fed");
   binned_.load(in, "binned");
+  next_unseen_ = in.integer("next_unseen");
   losses_.clear();
   for (std::uint64_t k = 0; k < in.integer("losses"); ++k) {
     const auto group = in.group("loss_" + std::to_string(k));
-    losses_.push_back({group->text("sink"), group->text("reason"), AmountTable{categories_, 1}});
+    losses_.push_back({group->text("sink"), group->text("reason"), TallyTable{categories_, 1}});
     losses_.back().amounts.load(*group, "amounts");
   }
 }

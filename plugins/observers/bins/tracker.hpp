@@ -17,7 +17,7 @@ namespace scree {
 struct Loss {
   std::string sink;
   std::string reason;
-  AmountTable amounts;  ///< one column
+  TallyTable amounts;  ///< one column
 };
 
 /// A body that came into a bin.
@@ -44,13 +44,13 @@ class Tracker {
   /// Writes each body's bin into a column: 0 not yet, k + 1 in bin k, -1 crossed the plane outside of the rectangle.
   void write_column(const BodyView& bodies, std::span<double> column) const;
 
-  [[nodiscard]] const AmountTable& fed() const { return fed_; }
-  [[nodiscard]] const AmountTable& binned() const { return binned_; }
+  [[nodiscard]] const TallyTable& fed() const { return fed_; }
+  [[nodiscard]] const TallyTable& binned() const { return binned_; }
   [[nodiscard]] const std::vector<Loss>& losses() const { return losses_; }
   /// Over all reasons.
-  [[nodiscard]] Amount lost(std::size_t category) const;
+  [[nodiscard]] Tally lost(std::size_t category) const;
   /// Seen, and neither binned nor lost.
-  [[nodiscard]] AmountTable in_flight() const;
+  [[nodiscard]] TallyTable in_flight() const;
 
   void save(StateWriter& out) const;
   void load(const StateReader& in);
@@ -75,7 +75,8 @@ class Tracker {
   CategoriseRemoved categorise_removed_;
   std::vector<Tracked> tracked_;  // ascending by id
   std::vector<Tracked> next_;
-  AmountTable fed_, binned_;
+  BodyId next_unseen_ = 0;  // every body below was seen, or removed before it could be
+  TallyTable fed_, binned_;
   std::vector<Loss> losses_;
 };
 
