@@ -23,6 +23,7 @@ constexpr std::size_t kPrefetch = 12;
 struct Scratch {
   MeshScratch mesh;
   std::vector<Sphere> points;
+  std::vector<std::uint32_t> near;
 };
 
 /// Unit vector along v; up when v is too short to have a direction.
@@ -38,18 +39,23 @@ void collide_spheres(const Vec3& a, double radius_a, const Vec3& b, double radiu
   write.add(0, a, radius_a, d - radius_a - radius_b, direction(from_b, d));
 }
 
-/// Two unions of spheres.
+/// Two unions of spheres. Those of each that come near the bounding sphere of the other are compared.
 void collide_clusters(const SolidSet& set, const Solid& a, const Pose& pose_a, const Solid& b, const Pose& pose_b,
-                      ContactWriter& write) {
+                      Scratch& scratch, ContactWriter& write) {
   const Pose a_to_b = inverse(pose_b) * pose_a;
   const auto of_a = set.spheres_of(a);
   const auto of_b = set.spheres_of(b);
+  scratch.near.clear();
+  for (std::uint32_t j = 0; j < of_b.size(); ++j) {
+    const double bound = of_b[j].radius + write.reach() + a.bounding_radius;
+    if (squared_norm(of_b[j].centre - a_to_b.position) < bound * bound) scratch.near.push_back(j);
+  }
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     const Vec3 centre = transform(a_to_b, of_a[i].centre);
     const double range = of_a[i].radius + write.reach();
     const double bound = range + b.bounding_radius;
     if (squared_norm(centre) >= bound * bound) continue;
-    for (std::size_t j = 0; j < of_b.size(); ++j) {
+    for (const std::uint32_t j : scratch.near) {
       const Vec3 from_b = centre - of_b[j].centre;
       const double limit = range + of_b[j].radius;
       const double d2 = squared_norm(from_b);
@@ -169,7 +175,7 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
     if (a.kind == ShapeKind::sphere && b.kind == ShapeKind::sphere) {
       collide_spheres(pose_a.position, a.size.x, pose_b.position, b.size.x, write);
     } else if (both_round) {
-      collide_clusters(set_, a, pose_a, b, pose_b, write);
+      collide_clusters(set_, a, pose_a, b, pose_b, scratch, write);
     } else if (is_round(a.kind)) {
       collide_round(set_, a, pose_a, b, pose_b, scratch, write);
     } else if (is_round(b.kind)) {

@@ -48,13 +48,25 @@ double reach_of(const ColliderMotion& a, const ColliderSpin& spin_a, const Colli
 void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
   const auto primitives = shapes.primitives();
   first_.resize(bodies.size() + 1);
+  first_bounded_.resize(bodies.size() + 1);
+  unbounded_.clear();
   std::uint32_t total = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     first_[i] = total;
+    first_bounded_[i] = total - static_cast<std::uint32_t>(unbounded_.size());
     const Shape& shape = shapes.shapes()[bodies.shape[i]];
-    for (std::uint32_t k = 0; k < shape.primitive_count; ++k) total += primitives[shape.first_primitive + k].collides;
+    for (std::uint32_t k = 0; k < shape.primitive_count; ++k) {
+      const Primitive& primitive = primitives[shape.first_primitive + k];
+      if (!primitive.collides) continue;
+      if (primitive.kind == ShapeKind::plane) unbounded_.push_back(total);
+      ++total;
+    }
   }
+  const auto bounded = total - static_cast<std::uint32_t>(unbounded_.size());
   first_[bodies.size()] = total;
+  first_bounded_[bodies.size()] = bounded;
+  all_bounded_ = unbounded_.empty();
+
   key_.resize(total);
   body_.resize(total);
   primitive_.resize(total);
@@ -65,6 +77,12 @@ void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
   movable_.resize(total);
   motion_.resize(total);
   spin_.resize(total);
+  if (all_bounded_) return;
+  bounded_.resize(bounded);
+  bounded_key_.resize(bounded);
+  bounded_box_.resize(bounded);
+  bounded_movable_.resize(bounded);
+  bounded_owner_.resize(bounded);
 }
 
 void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity,
@@ -72,6 +90,7 @@ void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyInde
   const Shape& shape = shapes.shapes()[bodies.shape[i]];
   const Pose body_pose{bodies.position[i], bodies.orientation[i]};
   std::uint32_t at = first_[i];
+  std::uint32_t bounded_at = first_bounded_[i];
   for (std::uint32_t k = 0; k < shape.primitive_count; ++k) {
     const Primitive& primitive = shapes.primitives()[shape.first_primitive + k];
     if (!primitive.collides) continue;
@@ -91,37 +110,26 @@ void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyInde
     } else {
       spin_[at] = {spin, primitive.bounding_radius};
       tight_[at] = bounds(shapes, primitive, pose_[at]);
-      box_[at] =
-          primitive.kind == ShapeKind::plane ? Aabb::everywhere() : swept_box(tight_[at], motion_[at], spin_[at], rule);
+      box_[at] = swept_box(tight_[at], motion_[at], spin_[at], rule);
     }
+    const bool plane = primitive.kind == ShapeKind::plane;
+    if (plane) {
+      box_[at] = Aabb::everywhere();
+    } else if (!is_bounded(box_[at])) {
+      // A body that diverged. Broad phases need numbers; no later test lets it pass, and the stepper reports it.
+      box_[at] = {};
+    }
+    if (!all_bounded_ && !plane) place_bounded(at, bounded_at++);
     ++at;
   }
 }
 
-void ColliderSet::separate_unbounded() {
-  unbounded_.clear();
-  bounded_.clear();
-  all_bounded_ = true;
-  const auto n = static_cast<ColliderIndex>(size());
-  for (ColliderIndex i = 0; i < n; ++i) {
-    if (motion_[i].kind == ShapeKind::plane) unbounded_.push_back(i);
-    // A body that diverged has a box of NaN; it meets nothing, and the stepper reports it.
-    if (!is_bounded(box_[i])) all_bounded_ = false;
-  }
-  if (all_bounded_) return;
-  for (ColliderIndex i = 0; i < n; ++i) {
-    if (is_bounded(box_[i])) bounded_.push_back(i);
-  }
-  bounded_key_.resize(bounded_.size());
-  bounded_box_.resize(bounded_.size());
-  bounded_movable_.resize(bounded_.size());
-  bounded_owner_.resize(bounded_.size());
-  for (std::size_t k = 0; k < bounded_.size(); ++k) {
-    bounded_key_[k] = key_[bounded_[k]];
-    bounded_box_[k] = box_[bounded_[k]];
-    bounded_movable_[k] = movable_[bounded_[k]];
-    bounded_owner_[k] = body_[bounded_[k]];
-  }
+void ColliderSet::place_bounded(std::uint32_t at, std::uint32_t bounded_at) {
+  bounded_[bounded_at] = at;
+  bounded_key_[bounded_at] = key_[at];
+  bounded_box_[bounded_at] = box_[at];
+  bounded_movable_[bounded_at] = movable_[at];
+  bounded_owner_[bounded_at] = body_[at];
 }
 
 void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::span<const Vec3> velocity,
@@ -134,7 +142,6 @@ void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::spa
       place(shapes, bodies, static_cast<BodyIndex>(i), velocity[i], angular_velocity[i], rule);
     }
   });
-  separate_unbounded();
 }
 
 ColliderView ColliderSet::view() const { return {key_, body_, primitive_, ordinal_, pose_, box_, movable_}; }

@@ -80,9 +80,10 @@ class ColliderSet {
   void count(const ShapeSet& shapes, const BodyView& bodies);
   void place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity, const Vec3& spin,
              const ReachRule& rule);
-  void separate_unbounded();
+  void place_bounded(std::uint32_t at, std::uint32_t bounded_at);
 
-  std::vector<std::uint32_t> first_;  // collider of each body, one more at the end
+  std::vector<std::uint32_t> first_;          // collider of each body, one more at the end
+  std::vector<std::uint32_t> first_bounded_;  // the same among the bounded ones
   std::vector<std::uint64_t> key_;
   std::vector<BodyIndex> body_;
   std::vector<std::uint32_t> primitive_;

@@ -119,13 +119,14 @@ void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::v
   }
 }
 
-void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::vector<ColliderPair>& out) const {
+void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::size_t first, std::size_t last,
+                                       std::vector<ColliderPair>& out) const {
   const ColliderView view = colliders_.view();
   const auto motion = colliders_.motion();
   const auto spin = colliders_.spin();
   const Pose& pose = view.pose[plane];
   const Vec3 normal = rotate(pose.orientation, {0, 0, 1});
-  for (ColliderIndex other = 0; other < view.size(); ++other) {
+  for (auto other = static_cast<ColliderIndex>(first); other < last; ++other) {
     if (!motion[other].movable && !motion[plane].movable) continue;
     if (motion[other].kind == ShapeKind::plane || motion[other].body == motion[plane].body) continue;
     const double reach = reach_of(motion[other], spin[other], motion[plane], spin[plane], rule_);
@@ -143,12 +144,17 @@ void CollisionPipeline::find_pairs(std::size_t body_count) {
 
   const std::size_t chunks = Executor::chunk_count(candidates_.size(), kCandidatesPerChunk);
   const auto planes = colliders_.unbounded();
-  const std::size_t parts = chunks + planes.size();
+  const std::size_t plane_chunks = Executor::chunk_count(colliders_.size(), kCandidatesPerChunk);
+  const std::size_t parts = chunks + planes.size() * plane_chunks;
   if (chunk_pairs_.size() < parts) chunk_pairs_.resize(parts);
   executor_.for_chunks(parts, 1, [&](std::size_t part, std::size_t) {
     std::vector<ColliderPair>& out = chunk_pairs_[part];
     out.clear();
-    if (part >= chunks) return pair_unbounded(planes[part - chunks], out);
+    if (part >= chunks) {
+      const std::size_t begin = (part - chunks) % plane_chunks * kCandidatesPerChunk;
+      const std::size_t end = std::min(colliders_.size(), begin + kCandidatesPerChunk);
+      return pair_unbounded(planes[(part - chunks) / plane_chunks], begin, end, out);
+    }
     const std::size_t first = part * kCandidatesPerChunk;
     keep_meeting(first, std::min(candidates_.size(), first + kCandidatesPerChunk), out);
   });

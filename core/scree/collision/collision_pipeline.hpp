@@ -59,7 +59,7 @@ class CollisionPipeline {
  private:
   void bind_new_shapes();
   void keep_meeting(std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const;
-  void pair_unbounded(ColliderIndex plane, std::vector<ColliderPair>& out) const;
+  void pair_unbounded(ColliderIndex plane, std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const;
   void find_pairs(std::size_t body_count);
   void collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const;
   void find_contacts();

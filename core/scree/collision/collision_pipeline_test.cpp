@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "scree/base/error.hpp"
@@ -206,6 +207,20 @@ TEST(CollisionPipeline, follows_bodies_that_come_and_go) {
   EXPECT_EQ(scene.find(0.0).size(), 2u);
   scene.bodies.remove(std::vector<char>{1, 0});
   EXPECT_TRUE(scene.find(0.0).empty());
+}
+
+// Law: a body whose position is not a number meets nothing, and the others meet as without it.
+TEST(CollisionPipeline, a_diverged_body_meets_nothing) {
+  Scene scene;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  scene.add(shape_data(plane_data()), {0, 0, 0}, {}, {}, Motion::fixed);
+  scene.add(ball(1.0), {nan, 0, nan});
+  scene.add(shape_data(primitive_data(ShapeKind::box, {1, 1, 1})), {0, 0, 0.5}, {nan, 0, 0}, {0, nan, 0});
+  scene.add(ball(1.0), {0, 0, 0.5});
+  const auto contacts = scene.find(0.1);
+  ASSERT_EQ(contacts.size(), 2u);
+  EXPECT_EQ(contacts[0].a, 0u);
+  EXPECT_EQ(contacts[0].b, 3u);
 }
 
 TEST(CollisionPipeline, names_the_kinds_that_no_phase_supports) {
