@@ -37,7 +37,7 @@ struct Part {
   std::unique_ptr<Interface> plugin;
 };
 
-/// Calls into a plugin. An exception other than Error that escapes is reported with the plugin's name.
+/// Calls into a plugin. What escapes, other than an Error, is reported with the plugin's name.
 template <class Call>
 decltype(auto) guarded(const PartInfo& who, ErrorKind kind, Call&& call) {
   try {
@@ -46,6 +46,8 @@ decltype(auto) guarded(const PartInfo& who, ErrorKind kind, Call&& call) {
     throw;
   } catch (const std::exception& problem) {
     throw Error{kind, who.label_with_library() + ": " + problem.what()};
+  } catch (...) {
+    throw Error{kind, who.label_with_library() + ": threw something that is no std::exception"};
   }
 }
 

@@ -50,8 +50,8 @@ PairRule pair_rule(const std::string& word) {
 std::uint32_t find_material(const Materials& materials, const std::string& name, const Options& o, const char* key) {
   const std::int64_t index = materials.find(name);
   if (index >= 0) return static_cast<std::uint32_t>(index);
-  throw o.error(key, "no material " + in_quotes(name) + "; the scene has " + list_of(materials.names()) +
-                         suggestion(name, materials.names()));
+  throw o.error(key, "is " + in_quotes(name) + ", which is no material of the scene; it has " +
+                         list_of(materials.names()) + suggestion(name, materials.names()));
 }
 
 void read_materials(const SceneTable& root, SceneModel& model) {
@@ -107,8 +107,8 @@ const NamedOptions& find_shape(const SceneModel& model, const Options& body) {
     names.push_back(shape.name);
     if (shape.name == body.text("shape")) return shape;
   }
-  throw body.error("shape", "no shape " + in_quotes(body.text("shape")) + "; the scene has " + list_of(names) +
-                                suggestion(body.text("shape"), names));
+  throw body.error("shape", "is " + in_quotes(body.text("shape")) + ", which is no shape of the scene; it has " +
+                                list_of(names) + suggestion(body.text("shape"), names));
 }
 
 /// The shape of a body. A fixed, a moving and a ghost body of one shape have different geometry records.
@@ -139,7 +139,7 @@ SceneBody read_body(SceneModel& model, const Options& o) {
   if (body.motion == Motion::fixed) {
     for (const char* key : {"velocity", "angular_velocity"}) {
       if (norm(o.vector(key)) > 0.0) {
-        throw o.error(key, std::string{"a fixed body has no "} + key + "; set motion = \"kinematic\" to move it");
+        throw o.error(key, "is not zero, but the body is fixed; set motion = \"kinematic\" to move it");
       }
     }
   }
@@ -158,7 +158,7 @@ void read_bodies(const SceneTable& root, SceneModel& model) {
     SceneBody entry = read_body(model, o);
     for (const SceneBody& other : model.bodies) {
       if (!entry.name.empty() && entry.name == other.name) {
-        throw o.error("name", "a body named " + in_quotes(entry.name) + " exists already; names must differ");
+        throw o.error("name", "is that of an earlier body, " + in_quotes(entry.name) + "; names must differ");
       }
     }
     model.bodies.push_back(std::move(entry));
