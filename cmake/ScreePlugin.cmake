@@ -36,6 +36,9 @@ macro(_scree_add_plugin_in_tree)
   target_link_libraries(${name}_objects PRIVATE scree_flags)
   set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${SCREE_PLUGIN_OUTPUT_DIRECTORY}
     INSTALL_RPATH "$ORIGIN/../..")
+  if(NOT SCREE_SANITIZE)
+    target_link_options(${name} PRIVATE -Wl,-z,defs)  # a library that LIBRARIES forgets is an error now, not when loaded
+  endif()
   add_dependencies(scree_runtime ${name})
   if(arg_TEST_SOURCES AND SCREE_TESTS)
     scree_add_test(${name}_test SOURCES $<TARGET_OBJECTS:${name}_objects> ${arg_TEST_SOURCES}

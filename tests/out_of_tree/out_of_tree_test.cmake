@@ -1,4 +1,4 @@
-# Given build, source, compiler, program and python: installs the build into a fresh prefix, configures and builds the
+# Given build, source, compiler and python: installs the build into a fresh prefix, configures and builds the
 # project in `source` against it with nothing but CMAKE_PREFIX_PATH, and runs its scene with the installed program.
 cmake_minimum_required(VERSION 3.25)
 
@@ -36,17 +36,15 @@ foreach(limit "push.cpp;25" "CMakeLists.txt;5")
   endif()
 endforeach()
 
-if(program)
-  set(scree ${prefix}/bin/scree)
-  run("plugins show" ${scree} plugins show force_field:push --plugin-dir ${plugin_build})
-  if(NOT output MATCHES "acceleration" OR NOT output MATCHES "m/s2")
-    message(FATAL_ERROR "`scree plugins show` does not tell about the parameter:\n${output}")
-  endif()
-  run("run" ${scree} run ${source}/scene.toml -o ${results} --plugin-dir ${plugin_build})
-  run("check" ${python} ${source}/check.py ${results})
-  # Without --plugin-dir the plugin must be unknown, or the run above used another file.
-  execute_process(COMMAND ${scree} check ${source}/scene.toml RESULT_VARIABLE status ERROR_VARIABLE output)
-  if(NOT status EQUAL 2 OR NOT output MATCHES "push")
-    message(FATAL_ERROR "without --plugin-dir, exit code 2 and the plugin's name were expected, not ${status}:\n${output}")
-  endif()
+set(scree ${prefix}/bin/scree)
+run("plugins show" ${scree} plugins show force_field:push --plugin-dir ${plugin_build})
+if(NOT output MATCHES "acceleration" OR NOT output MATCHES "m/s2")
+  message(FATAL_ERROR "`scree plugins show` does not tell about the parameter:\n${output}")
+endif()
+run("run" ${scree} run ${source}/scene.toml -o ${results} --plugin-dir ${plugin_build})
+run("check" ${python} ${source}/check.py ${results})
+# Without --plugin-dir the plugin must be unknown, or the run above used another file.
+execute_process(COMMAND ${scree} check ${source}/scene.toml RESULT_VARIABLE status ERROR_VARIABLE output)
+if(NOT status EQUAL 2 OR NOT output MATCHES "push")
+  message(FATAL_ERROR "without --plugin-dir, exit code 2 and the plugin's name were expected, not ${status}:\n${output}")
 endif()
