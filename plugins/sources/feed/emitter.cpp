@@ -71,6 +71,14 @@ bool Emitter::is_due(const Particle& particle, double until) const {
   return emitted_mass_ + 0.5 * particle.body.mass <= *mass_rate_ * open;
 }
 
+Aabb Emitter::outlet(double dt) const {
+  const Vec3 way = dt * velocity_;
+  const Vec3 corner = centre_ - 0.5 * u_ - 0.5 * v_;
+  Aabb box = Aabb::empty();
+  for (const Vec3& p : {corner, corner + u_, corner + v_, corner + u_ + v_}) box = merged(merged(box, p), p + way);
+  return box;
+}
+
 bool Emitter::place(Particle& particle, double dt) {
   for (int trial = 0; trial < kTrials; ++trial) {
     // Along the way of one step behind the outlet, so that the stream has no layers.
@@ -91,31 +99,25 @@ bool Emitter::place(Particle& particle, double dt) {
 
 void Emitter::emit(const BodyView& bodies, double time, double dt, std::vector<NewBody>& out) {
   if (time + dt <= start_ || emitted_ >= total_) return;
-  bool collected = false;
+  occupancy_.clear();
+  double margin = -1.0;  // what was collected reaches this far around the outlet [m]
   while (emitted_ < total_) {
     if (!pending_) {
       pending_counter_ = particles_->counter();
       pending_ = mixture_->draw(*particles_);
     }
     if (!is_due(*pending_, time + dt)) return;
-    if (!collected) {
-      const Vec3 way = dt * velocity_;
-      const Vec3 corner = centre_ - 0.5 * u_ - 0.5 * v_;
-      Aabb outlet = Aabb::empty();
-      for (const Vec3& p : {corner, corner + u_, corner + v_, corner + u_ + v_})
-        outlet = merged(merged(outlet, p), p + way);
-      // Every particle born in this step fits into the margin: sizes of one feed differ by less than ten.
-      occupancy_.collect(bodies, *shapes_, expanded(outlet, 10.0 * pending_->bounding_radius));
-      collected = true;
+    if (pending_->bounding_radius > margin) {
+      margin = 2.0 * pending_->bounding_radius;
+      occupancy_.collect(bodies, *shapes_, expanded(outlet(dt), margin));
     }
     if (!place(*pending_, dt)) {
       ++postponed_;
       return;
     }
-    pending_->body.shape = shapes_->add(pending_->shape);
     ++emitted_;
     emitted_mass_ += pending_->body.mass;
-    out.push_back(std::move(pending_->body));
+    out.push_back(to_body(std::move(*pending_), *shapes_));
     pending_.reset();
   }
 }

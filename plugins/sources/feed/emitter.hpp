@@ -30,6 +30,8 @@ class Emitter final : public Source {
 
  private:
   [[nodiscard]] bool is_due(const Particle& particle, double until) const;
+  /// The box of all places of birth in a step of `dt` [s].
+  [[nodiscard]] Aabb outlet(double dt) const;
   /// A pose on the outlet where the particle overlaps nothing, or false after some trials.
   bool place(Particle& particle, double dt);
 

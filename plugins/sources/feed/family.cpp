@@ -1,9 +1,9 @@
 #include "family.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <numeric>
 
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
@@ -11,23 +11,56 @@
 namespace scree {
 namespace {
 
-/// Particles drawn to learn the mean mass of a family: its relative error is below 1 % for any sensible size law.
-constexpr int kMassSamples = 20000;
+/// The mean mass of a family is sampled until its standard error falls below this part of it [1], or to the most draws.
+constexpr double kMassError = 2e-3;
+constexpr int kLeastMassSamples = 20000;
+constexpr int kMostMassSamples = 2000000;
 
-std::string describe(const std::string& name, const std::vector<ParticleTemplate>& templates) {
+/// A law that reaches down to zero may, once in a long while, hit it.
+double positive(const Distribution& law, RandomStream& random) {
+  for (;;) {
+    if (const double value = law.sample(random); value > 0.0) return value;
+  }
+}
+
+double sphere_volume(double diameter) { return std::numbers::pi / 6.0 * diameter * diameter * diameter; }
+
+std::string describe(const std::string& name, const TemplateSet& set) {
   double volume = 0.0, hausdorff = 0.0;
   std::size_t spheres = 0;
-  for (const ParticleTemplate& unit : templates) {
+  for (const ParticleTemplate& unit : set.templates) {
     volume = std::max(volume, std::abs(unit.volume_error));
     hausdorff = std::max(hausdorff, unit.hausdorff);
     spheres = std::max(spheres, unit.spheres.size());
   }
-  char text[200];
+  char text[240];
   std::snprintf(
       text, sizeof text,
       "family '%s': up to %zu spheres a particle, volume within %.2f %%, Hausdorff distance within %.2f %% of the size",
       name.c_str(), spheres, 100 * volume, 100 * hausdorff);
-  return text;
+  return set.redrawn == 0 ? text : text + ("; " + std::to_string(set.redrawn) + " random hulls were drawn again");
+}
+
+/// Mean mass of a family's particles [kg]; logs when a wide law leaves it uncertain.
+double mean_mass(const Family& family, const SceneServices& services) {
+  RandomStream random = services.random_stream("mean mass of " + family.name());
+  double mean = 0.0, squares = 0.0;  // Welford: running mean, sum of squared deviations
+  for (int n = 1;; ++n) {
+    const double mass = family.draw_mass(random), before = mass - mean;
+    mean += before / n;
+    squares += before * (mass - mean);
+    if (n < kLeastMassSamples) continue;
+    const double error = std::sqrt(squares) / n / mean;
+    if (error <= kMassError) return mean;
+    if (n < kMostMassSamples) continue;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "family '%s': its sizes spread so widely that the mean mass, and with it the share, is known to "
+                  "%.1f %% only",
+                  family.name().c_str(), 100 * error);
+    services.log(text);
+    return mean;
+  }
 }
 
 }  // namespace
@@ -53,15 +86,18 @@ Family::Family(const Options& options, SceneServices& services)
     : name_{options.text("name")},
       share_{options.number("share")},
       size_{options.table("size")},
-      random_alignment_{options.text("alignment") == "random"},
-      templates_{make_templates(options.table("shape"), name_)} {
+      random_alignment_{options.text("alignment") == "random"} {
+  TemplateSet set = make_templates(options.table("shape"), name_);
+  if (options.table("shape").type() != "sphere") services.log(describe(name_, set));
+  templates_ = std::move(set.templates);
   const std::int64_t material = services.materials().find(options.text("material"));
   if (material < 0) static_cast<void>(services.material(options.text("material")));  // throws the sentence
   material_ = static_cast<std::uint32_t>(material);
   density_ = options.has("density") ? Distribution{options.table("density")}
                                     : Distribution{services.materials()[material_].density};
-  if (size_.minimum() <= 0.0 || density_.minimum() <= 0.0) {
-    throw options.error("size",
+  for (const Distribution* law : {&size_, &density_}) {
+    if (law->minimum() >= 0.0 && law->maximum() > 0.0) continue;
+    throw options.error(law == &size_ ? "size" : "density",
                         "family '" + name_ + "': sizes and densities have to be above zero; give the law a `min`");
   }
   if (options.has("attributes")) {
@@ -71,30 +107,43 @@ Family::Family(const Options& options, SceneServices& services)
       attributes_.emplace_back(id, Distribution{columns.table(column)});
     }
   }
-  if (options.table("shape").type() != "sphere") services.log(describe(name_, templates_));
+  if (size_.minimum() == size_.maximum()) {
+    for (const ParticleTemplate& unit : templates_)
+      shared_.push_back(services.shapes().add(scaled_shape(unit, size_.minimum())));
+  }
+}
+
+NewBody to_body(Particle&& particle, ShapeSet& shapes) {
+  if (particle.shape) particle.body.shape = shapes.add(*particle.shape);
+  return std::move(particle.body);
 }
 
 Particle Family::draw(RandomStream& random) const {
-  const double size = size_.sample(random);
-  const double density = density_.sample(random);
+  const double size = positive(size_, random);
+  const double density = positive(density_, random);
   const std::size_t pick = templates_.size() == 1 ? 0 : random() % templates_.size();
+  const ParticleTemplate& unit = templates_[pick];
   Particle particle;
-  particle.shape = scaled_shape(templates_[pick], size);
-  particle.bounding_radius = size * templates_[pick].bounding_radius;
   NewBody& body = particle.body;
+  if (shared_.empty()) {
+    particle.shape = scaled_shape(unit, size);
+  } else {
+    body.shape = shared_[pick];
+  }
+  particle.bounding_radius = size * unit.bounding_radius;
   body.motion = Motion::dynamic;
   body.material = material_;
   body.pose.orientation = random_alignment_ ? random.orientation() : Quat{};
-  body.mass = density * particle.shape.volume;
-  body.inertia = density * particle.shape.unit_inertia;
+  body.mass = density * sphere_volume(size);
+  body.inertia = density * std::pow(size, 5) * unit.unit_inertia;
   body.radius = 0.5 * size;
   for (const auto& [column, law] : attributes_) body.attributes.emplace_back(column, law.sample(random));
   return particle;
 }
 
 double Family::draw_mass(RandomStream& random) const {
-  const double size = size_.sample(random);
-  return density_.sample(random) * std::numbers::pi / 6.0 * size * size * size;
+  const double size = positive(size_, random);
+  return positive(density_, random) * sphere_volume(size);
 }
 
 std::vector<Parameter> Mixture::parameters() {
@@ -109,11 +158,8 @@ Mixture::Mixture(const Options& options, SceneServices& services) {
   for (const Family& family : families_) {
     double weight = family.share();
     if (options.text("share_by") == "mass") {
-      // Shares by mass become probabilities by number through the mean mass of a particle, on a stream of its own.
-      RandomStream random = services.random_stream("mean mass of " + family.name());
-      double mass = 0.0;
-      for (int i = 0; i < kMassSamples; ++i) mass += family.draw_mass(random) / kMassSamples;
-      weight /= mass;
+      // Shares by mass become probabilities by number.
+      weight /= mean_mass(family, services);
     }
     cumulative_.push_back((cumulative_.empty() ? 0.0 : cumulative_.back()) + weight);
   }

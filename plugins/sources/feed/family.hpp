@@ -1,6 +1,7 @@
 // Families: the kinds of particle that a feed mixes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,10 +17,13 @@ class SceneServices;
 
 /// A particle before it has a place.
 struct Particle {
-  NewBody body;  ///< all but pose and velocity, and shape
-  ShapeData shape;
-  double bounding_radius = 0.0;  ///< about the centre of mass [m]
+  NewBody body;                    ///< all but place and velocity, and the shape if it is an own one
+  std::optional<ShapeData> shape;  ///< its own; none when body.shape is one that the family shares
+  double bounding_radius = 0.0;    ///< about the centre of mass [m]
 };
+
+/// The body of a particle that has its place; adds its shape to `shapes` unless it is shared.
+[[nodiscard]] NewBody to_body(Particle&& particle, ShapeSet& shapes);
 
 /// One kind of particle.
 class Family {
@@ -45,6 +49,7 @@ class Family {
   Distribution density_;  // [kg/m3]
   bool random_alignment_;
   std::vector<ParticleTemplate> templates_;
+  std::vector<std::uint32_t> shared_;  // shapes of the templates, if all particles are of one size; else empty
   std::vector<std::pair<AttributeId, Distribution>> attributes_;
 };
 

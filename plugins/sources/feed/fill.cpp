@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <unordered_set>
 
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/state/state_io.hpp"
@@ -35,55 +36,89 @@ Fill::Fill(const Options& options)
 void Fill::setup(SceneServices& services) {
   mixture_.emplace(options_, services);
   shapes_ = &services.shapes();
-  random_.emplace(services.random_stream("fill"));
+  particles_.emplace(services.random_stream("particles"));
+  places_.emplace(services.random_stream("places"));
+  // Drawn here for the largest only, and again, the same ones, when they are born: no list of particles is kept.
+  for (std::int64_t i = 0; i < count_; ++i) radius_ = std::max(radius_, mixture_->draw(*particles_).bounding_radius);
+  particles_->set_counter(0);
+  // A lattice on which two of the largest particles just miss each other; smaller ones are moved about in their cell.
+  const double cell = 2.0 * radius_ * (1.0 + 1e-9);
+  const Vec3 room = upper_ - lower_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double fits = std::floor(room[axis] / cell);
+    cells_[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::min(fits, 1e6));
+    pitch_[axis] = axis == up_ ? cell : room[axis] / std::max(1.0, fits);
+  }
+  check_room(cell_count());
 }
 
-void Fill::emit(const BodyView&, double, double, std::vector<NewBody>& out) {
+std::int64_t Fill::cell_count() const { return cells_[0] * cells_[1] * cells_[2]; }
+
+void Fill::check_room(std::int64_t cells) const {
+  if (cells >= count_) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the box has room for %lld particles of up to %.3g mm, but %lld are wanted; make it larger",
+                static_cast<long long>(cells), 2e3 * radius_, static_cast<long long>(count_));
+  throw options_.error("upper", text);
+}
+
+Vec3 Fill::middle(std::int64_t cell) const {
+  Vec3 at = lower_;
+  for (const int axis : {(up_ + 1) % 3, (up_ + 2) % 3, up_}) {
+    const std::int64_t n = cells_[static_cast<std::size_t>(axis)];
+    at[axis] += (static_cast<double>(cell % n) + 0.5) * pitch_[axis];
+    cell /= n;
+  }
+  return at;
+}
+
+std::vector<std::int64_t> Fill::free_cells(const BodyView& bodies) const {
+  std::unordered_set<std::int64_t> taken;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies.motion[b] != Motion::dynamic) continue;
+    const double reach = shapes_->shapes()[bodies.shape[b]].bounding_radius;
+    std::array<std::int64_t, 3> first{}, last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int a = static_cast<int>(axis);
+      const double n = static_cast<double>(cells_[axis]), at = bodies.position[b][a] - lower_[a];
+      first[axis] = static_cast<std::int64_t>(std::clamp(std::floor((at - reach) / pitch_[a]), 0.0, n));
+      last[axis] = static_cast<std::int64_t>(std::clamp(std::floor((at + reach) / pitch_[a]) + 1.0, 0.0, n));
+    }
+    const auto across = static_cast<std::size_t>((up_ + 1) % 3), along = static_cast<std::size_t>((up_ + 2) % 3);
+    const auto up = static_cast<std::size_t>(up_);
+    for (std::int64_t k = first[up]; k < last[up]; ++k) {
+      for (std::int64_t j = first[along]; j < last[along]; ++j) {
+        for (std::int64_t i = first[across]; i < last[across]; ++i) {
+          taken.insert((k * cells_[along] + j) * cells_[across] + i);
+        }
+      }
+    }
+  }
+  std::vector<std::int64_t> free;
+  for (std::int64_t cell = 0; cell < cell_count() && static_cast<std::int64_t>(free.size()) < count_; ++cell) {
+    if (taken.count(cell) == 0) free.push_back(cell);
+  }
+  return free;
+}
+
+void Fill::emit(const BodyView& bodies, double, double, std::vector<NewBody>& out) {
   if (done_) return;
   done_ = true;
-  std::vector<Particle> particles;
-  double radius = 0.0;
-  for (std::int64_t i = 0; i < count_; ++i) {
-    particles.push_back(mixture_->draw(*random_));
-    radius = std::max(radius, particles.back().bounding_radius);
-  }
-  // A lattice on which two of the largest particles just miss each other; smaller ones are moved about in their cell.
-  const double cell = 2.0 * radius * (1.0 + 1e-9);
-  const Vec3 room = upper_ - lower_;
-  std::array<std::int64_t, 3> cells{};
-  for (int axis = 0; axis < 3; ++axis)
-    cells[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::floor(room[axis] / cell));
-  if (cells[0] * cells[1] * cells[2] < count_) {
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "the box has room for %lld particles of up to %.3g mm, but %lld are wanted; make it larger",
-                  static_cast<long long>(cells[0] * cells[1] * cells[2]), 2e3 * radius, static_cast<long long>(count_));
-    throw options_.error("upper", text);
-  }
-  const int across = (up_ + 1) % 3, along = (up_ + 2) % 3;
-  const auto n = [&](int axis) { return cells[static_cast<std::size_t>(axis)]; };
-  for (std::int64_t i = 0; i < count_; ++i) {
-    Particle& particle = particles[static_cast<std::size_t>(i)];
-    Vec3 at = lower_;
-    at[across] += (static_cast<double>(i % n(across)) + 0.5) * room[across] / static_cast<double>(n(across));
-    at[along] += (static_cast<double>(i / n(across) % n(along)) + 0.5) * room[along] / static_cast<double>(n(along));
-    at[up_] += (static_cast<double>(i / (n(across) * n(along))) + 0.5) * cell;
-    const double play = radius - particle.bounding_radius;
-    for (int axis = 0; axis < 3; ++axis) at[axis] += random_->uniform(-play, play);
+  const std::vector<std::int64_t> cells = free_cells(bodies);
+  check_room(static_cast<std::int64_t>(cells.size()));
+  for (const std::int64_t cell : cells) {
+    Particle particle = mixture_->draw(*particles_);
+    const double play = radius_ - particle.bounding_radius;
+    Vec3 at = middle(cell);
+    for (int axis = 0; axis < 3; ++axis) at[axis] += places_->uniform(-play, play);
     particle.body.pose.position = at;
-    particle.body.shape = shapes_->add(particle.shape);
-    out.push_back(std::move(particle.body));
+    out.push_back(to_body(std::move(particle), *shapes_));
   }
 }
 
-void Fill::save(StateWriter& out) const {
-  out.write("done", std::uint64_t{done_});
-  out.write("random", random_->counter());
-}
+void Fill::save(StateWriter& out) const { out.write("done", std::uint64_t{done_}); }
 
-void Fill::load(const StateReader& in) {
-  done_ = in.integer("done") != 0;
-  random_->set_counter(in.integer("random"));
-}
+void Fill::load(const StateReader& in) { done_ = in.integer("done") != 0; }
 
 }  // namespace scree

@@ -1,7 +1,9 @@
 // Fill: a box full of particles at the beginning.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "family.hpp"
 #include "scree/interfaces/source.hpp"
@@ -10,7 +12,8 @@ namespace scree {
 
 class ShapeSet;
 
-/// Places a number of particles on a jittered lattice, from the lower corner of a box upwards, at the first step.
+/// Places a number of particles on a jittered lattice, from the lower corner of a box upwards, at the first step. Cells
+/// that hold a body already are passed over.
 class Fill final : public Source {
  public:
   explicit Fill(const Options& options);
@@ -22,13 +25,24 @@ class Fill final : public Source {
   void load(const StateReader& in) override;
 
  private:
+  [[nodiscard]] std::int64_t cell_count() const;
+  /// Cells that no bounding sphere of a dynamic body reaches into.
+  [[nodiscard]] std::vector<std::int64_t> free_cells(const BodyView& bodies) const;
+  [[nodiscard]] Vec3 middle(std::int64_t cell) const;
+  /// @throws Error (usage) when fewer cells are free than particles wanted.
+  void check_room(std::int64_t cells) const;
+
   Options options_;
   Vec3 lower_, upper_;  // [m]
   std::int64_t count_;
-  int up_;  // axis along which layers follow each other
+  int up_;                               // axis along which layers follow each other
+  double radius_ = 0.0;                  // of the largest bounding sphere [m]
+  std::array<std::int64_t, 3> cells_{};  // of the lattice along x, y, z
+  Vec3 pitch_;                           // of the lattice, no less than 2 radius_ [m]
   std::optional<Mixture> mixture_;
   ShapeSet* shapes_ = nullptr;
-  std::optional<RandomStream> random_;
+  std::optional<RandomStream> particles_;  // which particles they are
+  std::optional<RandomStream> places_;     // where in its cell each one is
   bool done_ = false;
 };
 

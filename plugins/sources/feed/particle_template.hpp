@@ -1,7 +1,8 @@
 // ParticleTemplate: a shape of unit size that particles of one family are scaled from.
 //
-// Size is the diameter of the sphere of equal volume. Collision sees a cluster of at most 32 spheres; mass and inertia are
-// those of the true solid, in whose principal frame the spheres are given.
+// Size is the diameter of the sphere of equal volume. Collision sees a cluster of at most `max_spheres` spheres: the first
+// of 1, 2, 4, ... that comes well within the limits below. Mass and inertia are those of the true solid, in whose principal
+// frame the spheres are given.
 #pragma once
 
 #include <string>
@@ -16,7 +17,9 @@ namespace scree {
 
 /// Largest errors of a cluster that a feed accepts.
 inline constexpr double kVolumeLimit = 0.05;     ///< of the volume [1]
-inline constexpr double kHausdorffLimit = 0.10;  ///< Hausdorff distance over the size of the solid [1]
+inline constexpr double kHausdorffLimit = 0.10;  ///< Hausdorff distance over the size of the particle [1]
+/// A cluster this close gets no more spheres, since contacts cost in proportion to them [1].
+inline constexpr double kEnoughHausdorff = 0.08;
 
 /// A particle of size 1 m.
 struct ParticleTemplate {
@@ -24,15 +27,21 @@ struct ParticleTemplate {
   Vec3 unit_inertia;             ///< principal moments of the true solid for a density of 1 [m5]
   double bounding_radius = 0.5;  ///< of the spheres about the centre of mass [m]
   double volume_error = 0.0;     ///< of the cluster, relative [1]
-  double hausdorff = 0.0;        ///< of the cluster, over the size of the solid [1]
+  double hausdorff = 0.0;        ///< of the cluster, over the size: the diameter of the sphere of equal volume [1]
+};
+
+/// The templates of a family: one, or several for random hulls.
+struct TemplateSet {
+  std::vector<ParticleTemplate> templates;
+  int redrawn = 0;  ///< random hulls thrown away because their clusters missed the limits
 };
 
 /// The alternatives of a family's `shape`.
 [[nodiscard]] std::vector<Variant> particle_shapes();
 
-/// The templates of a family: one, or several for random hulls.
-/// @throws Error (usage) when the shape cannot be made or a cluster of 32 spheres does not come within the limits.
-[[nodiscard]] std::vector<ParticleTemplate> make_templates(const Options& shape, const std::string& family);
+/// Makes the templates of a family. A random hull whose cluster misses the limits is drawn again.
+/// @throws Error (usage) when the shape cannot be made or a cluster does not come within the limits.
+[[nodiscard]] TemplateSet make_templates(const Options& shape, const std::string& family);
 
 /// The shape of a particle of `size` [m].
 [[nodiscard]] ShapeData scaled_shape(const ParticleTemplate& unit, double size);

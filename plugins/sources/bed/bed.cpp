@@ -1,0 +1,86 @@
+#include "bed.hpp"
+
+#include <cstdio>
+#include <numbers>
+#include <unordered_map>
+
+#include "scree/geometry/mass_properties.hpp"
+#include "scree/interfaces/scene_services.hpp"
+#include "scree/model/material.hpp"
+#include "scree/model/shape_set.hpp"
+#include "scree/state/state_io.hpp"
+
+namespace scree {
+namespace {
+
+ShapeData sphere_shape(double radius) {
+  const MassProperties ball = sphere_mass_properties(radius);
+  ShapeData shape;
+  PrimitiveData part;
+  part.primitive.kind = ShapeKind::sphere;
+  part.primitive.size = {radius, 0, 0};
+  shape.primitives.push_back(std::move(part));
+  shape.volume = ball.volume;
+  shape.unit_inertia = ball.inertia;
+  return shape;
+}
+
+}  // namespace
+
+std::vector<Parameter> BedSource::parameters() {
+  return {
+      Parameter::path("file", "table of spheres: their number and the side of the box, then x y z r vx vy vz a line"),
+      Parameter::text("material", "name of the material of all spheres"),
+      Parameter::integer("limit", "take the first so many spheres only").at_least(1).optional(),
+      Parameter::vector("offset", "m", "added to every position").by_default(Vec3{})};
+}
+
+void BedSource::setup(SceneServices& services) {
+  material_ = services.material(options_.text("material"));
+  density_ = services.materials()[material_].density;
+  shapes_ = &services.shapes();
+  const auto limit = options_.has("limit") ? static_cast<std::size_t>(options_.integer("limit"))
+                                           : std::numeric_limits<std::size_t>::max();
+  bed_ = read_bed(options_.path("file"), limit);
+  double mass = 0.0, least = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (const BedSphere& sphere : bed_.spheres) {
+    mass += density_ * sphere_mass_properties(sphere.radius).volume;
+    least = std::min(least, sphere.radius);
+    largest = std::max(largest, sphere.radius);
+  }
+  char text[200];
+  std::snprintf(text, sizeof text, "%zu spheres of %.4g to %.4g mm radius, %.6g kg, in a box of side %.6g m",
+                bed_.spheres.size(), 1e3 * least, 1e3 * largest, mass, bed_.side);
+  services.log(text);
+}
+
+void BedSource::emit(const BodyView&, double, double, std::vector<NewBody>& out) {
+  if (done_) return;
+  done_ = true;
+  const Vec3 offset = options_.vector("offset");
+  std::unordered_map<double, std::uint32_t> shape_of;  // by radius
+  for (const BedSphere& sphere : bed_.spheres) {
+    const auto [shape, is_new] = shape_of.try_emplace(sphere.radius, 0);
+    if (is_new) shape->second = shapes_->add(sphere_shape(sphere.radius));
+    const MassProperties ball = sphere_mass_properties(sphere.radius);
+    NewBody body;
+    body.shape = shape->second;
+    body.material = material_;
+    body.pose.position = sphere.centre + offset;
+    body.velocity = sphere.velocity;
+    body.mass = density_ * ball.volume;
+    body.inertia = density_ * ball.inertia;
+    body.radius = sphere.radius;
+    out.push_back(std::move(body));
+  }
+  bed_ = {};
+}
+
+void BedSource::save(StateWriter& out) const { out.write("done", std::uint64_t{done_}); }
+
+void BedSource::load(const StateReader& in) {
+  done_ = in.integer("done") != 0;
+  if (done_) bed_ = {};
+}
+
+}  // namespace scree
