@@ -61,7 +61,11 @@ class PairScene {
     if (!bound_) phase.bind(shapes_, 0);
     bound_ = true;
     pose_ = {a, b};
-    const ColliderView view{key_, body_, primitive_, ordinal_, pose_, box_, movable_};
+    for (std::size_t i = 0; i < 2; ++i) {
+      kind_[i] = shapes_.primitives()[i].kind;
+      ball_[i] = {pose_[i].position, shapes_.primitives()[i].bounding_radius};
+    }
+    const ColliderView view{key_, body_, primitive_, ordinal_, pose_, box_, movable_, kind_, ball_};
     const ColliderPair pair{0, 1, reach};
     ContactBuffer out;
     phase.collide(view, {&pair, 1}, out);
@@ -79,6 +83,8 @@ class PairScene {
   std::vector<Pose> pose_{2};
   std::vector<Aabb> box_{2};
   std::vector<char> movable_{1, 1};
+  std::vector<ShapeKind> kind_ = std::vector<ShapeKind>(2);
+  std::vector<BoundingBall> ball_{2};
 };
 
 }  // namespace scree::test

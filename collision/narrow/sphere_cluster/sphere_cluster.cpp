@@ -30,13 +30,13 @@ struct Scratch {
 Vec3 direction(const Vec3& v, double length) { return length > 1e-300 ? v / length : Vec3{0, 0, 1}; }
 
 /// Two single spheres.
-void collide_spheres(const Vec3& a, double radius_a, const Vec3& b, double radius_b, ContactWriter& write) {
-  const Vec3 from_b = a - b;
-  const double limit = radius_a + radius_b + write.reach();
+void collide_spheres(const BoundingBall& a, const BoundingBall& b, ContactWriter& write) {
+  const Vec3 from_b = a.centre - b.centre;
+  const double limit = a.radius + b.radius + write.reach();
   const double d2 = squared_norm(from_b);
   if (d2 >= limit * limit) return;
   const double d = std::sqrt(d2);
-  write.add(0, a, radius_a, d - radius_a - radius_b, direction(from_b, d));
+  write.add(0, a.centre, a.radius, d - a.radius - b.radius, direction(from_b, d));
 }
 
 /// Two unions of spheres. Those of each that come near the bounding sphere of the other are compared.
@@ -158,12 +158,13 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
   using namespace sphere_cluster;
   Scratch scratch;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (k + kPrefetch < pairs.size()) {
-      const ColliderIndex next = pairs[k + kPrefetch].b;
-      __builtin_prefetch(&colliders.pose[next]);
-      __builtin_prefetch(&set_.solids[colliders.primitive[next]]);
-    }
+    if (k + kPrefetch < pairs.size()) __builtin_prefetch(&colliders.ball[pairs[k + kPrefetch].b]);
     const ColliderPair& pair = pairs[k];
+    if (colliders.kind[pair.a] == ShapeKind::sphere && colliders.kind[pair.b] == ShapeKind::sphere) {
+      ContactWriter write{colliders, pair, false, out};
+      collide_spheres(colliders.ball[pair.a], colliders.ball[pair.b], write);
+      continue;
+    }
     const Solid& a = set_.solids[colliders.primitive[pair.a]];
     const Solid& b = set_.solids[colliders.primitive[pair.b]];
     const Pose& pose_a = colliders.pose[pair.a];
@@ -172,9 +173,7 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
     // The plane, or else the one that is not made of spheres, comes second.
     const bool swapped = !both_round && (is_round(b.kind) || a.kind == ShapeKind::plane);
     ContactWriter write{colliders, pair, swapped, out};
-    if (a.kind == ShapeKind::sphere && b.kind == ShapeKind::sphere) {
-      collide_spheres(pose_a.position, a.size.x, pose_b.position, b.size.x, write);
-    } else if (both_round) {
+    if (both_round) {
       collide_clusters(set_, a, pose_a, b, pose_b, scratch, write);
     } else if (is_round(a.kind)) {
       collide_round(set_, a, pose_a, b, pose_b, scratch, write);

@@ -13,6 +13,12 @@ namespace scree {
 /// Index of a collider in a ColliderView.
 using ColliderIndex = std::uint32_t;
 
+/// The smallest ball about a collider's origin that holds it; of a sphere the sphere itself.
+struct BoundingBall {
+  Vec3 centre;          ///< [m], world
+  double radius = 0.0;  ///< [m]; infinite for a plane
+};
+
 /// Spans of equal length, one entry per colliding primitive per body, in order
 /// of body, then primitive.
 struct ColliderView {
@@ -23,6 +29,8 @@ struct ColliderView {
   std::span<const Pose> pose;                ///< of the primitive's frame in the world [m]
   std::span<const Aabb> box;                 ///< tight bounds grown by what can happen within the step [m], world
   std::span<const char> movable;             ///< 1 for primitives of dynamic bodies
+  std::span<const ShapeKind> kind;           ///< of the primitive
+  std::span<const BoundingBall> ball;        ///< of the primitive
 
   [[nodiscard]] std::size_t size() const { return key.size(); }
 };

@@ -75,6 +75,8 @@ void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
   box_.resize(total);
   tight_.resize(total);
   movable_.resize(total);
+  kind_.resize(total);
+  ball_.resize(total);
   motion_.resize(total);
   spin_.resize(total);
   if (all_bounded_) return;
@@ -101,6 +103,8 @@ void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyInde
     pose_[at] = body_pose * primitive.local;
     movable_[at] = bodies.motion[i] == Motion::dynamic;
     const Vec3 centre = pose_[at].position;
+    kind_[at] = primitive.kind;
+    ball_[at] = {centre, primitive.bounding_radius};
     motion_[at] = {centre,         primitive.bounding_radius, velocity + cross(spin, centre - body_pose.position), i,
                    primitive.kind, movable_[at] != 0};
     if (primitive.kind == ShapeKind::sphere) {
@@ -144,7 +148,9 @@ void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::spa
   });
 }
 
-ColliderView ColliderSet::view() const { return {key_, body_, primitive_, ordinal_, pose_, box_, movable_}; }
+ColliderView ColliderSet::view() const {
+  return {key_, body_, primitive_, ordinal_, pose_, box_, movable_, kind_, ball_};
+}
 
 BoxView ColliderSet::bounded() const {
   if (all_bounded_) return {key_, box_, movable_, body_};

@@ -92,6 +92,8 @@ class ColliderSet {
   std::vector<Aabb> box_;
   std::vector<Aabb> tight_;
   std::vector<char> movable_;
+  std::vector<ShapeKind> kind_;
+  std::vector<BoundingBall> ball_;
   std::vector<ColliderMotion> motion_;
   std::vector<ColliderSpin> spin_;
 

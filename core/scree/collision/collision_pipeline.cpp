@@ -164,14 +164,13 @@ void CollisionPipeline::find_pairs(std::size_t body_count) {
 
 void CollisionPipeline::collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const {
   const ColliderView view = colliders_.view();
-  const auto motion = colliders_.motion();
   const auto phase_of = [&](const ColliderPair& pair) {
-    return phase_[index(motion[pair.a].kind)][index(motion[pair.b].kind)];
+    return phase_[index(view.kind[pair.a])][index(view.kind[pair.b])];
   };
   // Runs of pairs of the same phase, so that contacts stay in the order of pairs.
   for (std::size_t first = 0; first < pairs.size();) {
     const int phase = phase_of(pairs[first]);
-    if (phase < 0) throw unsupported(motion[pairs[first].a].kind, motion[pairs[first].b].kind);
+    if (phase < 0) throw unsupported(view.kind[pairs[first].a], view.kind[pairs[first].b]);
     std::size_t last = first + 1;
     while (last < pairs.size() && phase_of(pairs[last]) == phase) ++last;
     chain_[static_cast<std::size_t>(phase)]->collide(view, pairs.subspan(first, last - first), out);
