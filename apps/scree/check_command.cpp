@@ -21,7 +21,7 @@ struct CheckOptions {
 };
 
 void check(const CheckOptions& options) {
-  const SceneDocument scene = SceneDocument::load(options.scene, options.overrides);
+  const SceneDocument scene = SceneDocument::load(scene_file(options.scene), options.overrides);
   const PluginHost host = find_scene_plugins(scene, options.plugin_dirs);
   const Simulation simulation{scene, host, {}};
   if (options.resolved) {

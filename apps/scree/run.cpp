@@ -47,8 +47,9 @@ int Run::to_the_end() {
     return exit_code;
   } catch (const Error& failure) {
     progress_.end_line();
-    finish_failed(failure);
-    throw;
+    if (!finish_failed(failure)) throw;
+    throw Error{failure.kind(), fmt::format("{}; the last good state, at {:.6g} s, is in {}", failure.what(),
+                                            simulation_.time(), (options_.output / "checkpoint.h5").string())};
   }
 }
 
@@ -90,19 +91,24 @@ void Run::finish(int exit_code, const std::string& outcome) {
   write_record(exit_code, outcome);
 }
 
-/// Saves what can be saved. A second failure, on a full disk say, would only hide the first.
-void Run::finish_failed(const Error& failure) {
+/// Saves what can be saved, and tells whether there is a checkpoint of the last good state. A second failure, on a full
+/// disk say, would only hide the first.
+bool Run::finish_failed(const Error& failure) {
   const auto attempt = [](const auto& call) {
     try {
       call();
+      return true;
     } catch (const std::exception&) {
+      return false;
     }
   };
+  bool saved = false;
   if (failure.kind() == ErrorKind::diverged) {
-    attempt([&] { save_checkpoint(); });
+    saved = attempt([&] { save_checkpoint(); });
     attempt([&] { simulation_.finish(); });
   }
   attempt([&] { write_record(failure.exit_code(), failure.what()); });
+  return saved;
 }
 
 void Run::write_record(int exit_code, const std::string& outcome) {
@@ -126,6 +132,7 @@ void Run::write_record(int exit_code, const std::string& outcome) {
 
 void Run::print_end(const std::string& outcome) const {
   for (const ReportTable& table : record_.tables) fmt::print("\n{}", to_text(table));
+  fmt::print("\n{}", to_text(work_table(statistics_, simulation_.timer())));
   if (options_.profile) fmt::print("\n{}", to_text(phase_table(simulation_.timer())));
   fmt::print("\n{}, {} steps in {}, state {}; results in {}\n", outcome, record_.steps,
              duration_text(record_.wall_time), to_hex(record_.state_hash), options_.output.string());

@@ -31,7 +31,7 @@ class Run {
   void after_step(const StepRecord& step);
   void save_checkpoint();
   void finish(int exit_code, const std::string& outcome);
-  void finish_failed(const Error& failure);
+  bool finish_failed(const Error& failure);
   void write_record(int exit_code, const std::string& outcome);
   void print_end(const std::string& outcome) const;
   [[nodiscard]] double wall_time() const;  // [s]

@@ -71,6 +71,7 @@ std::unique_ptr<Simulation> make_simulation(const SceneDocument& scene, const Pl
 }
 
 int run(RunOptions options) {
+  options.scene = scene_file(options.scene);
   if (options.output.empty()) options.output = default_output(options.scene);
   if (options.threads == 0) options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   check_resume(options);

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <numeric>
 
 #include "scree/model/body_store.hpp"
@@ -53,6 +54,25 @@ std::vector<std::pair<std::string, double>> RunStatistics::measures() const {
           {"mean_penetration_over_radius", contacts_ > 0.0 ? mean_penetration_ / contacts_ : 0.0},
           {"max_penetration [m]", max_penetration_},
           {"peak_memory [byte]", peak_memory()}};
+}
+
+ReportTable work_table(const RunStatistics& statistics, const PhaseTimer& timer) {
+  ReportTable table{"work", {"what", "value"}, {}};
+  for (const auto& [name, value] : statistics.measures()) {
+    table.rows.push_back({name, fmt::format("{:.4g}", value)});
+  }
+  const PhaseTimer::Seconds& seconds = timer.total();
+  const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  const auto share = [&](std::initializer_list<Phase> phases) {
+    double part = 0.0;
+    for (const Phase phase : phases) part += seconds[static_cast<std::size_t>(phase)];
+    return fmt::format("{:.1f}", sum > 0.0 ? 100.0 * part / sum : 0.0);
+  };
+  table.rows.push_back({"time for collision [%]", share({Phase::collision})});
+  table.rows.push_back({"time for the solver [%]", share({Phase::solver})});
+  table.rows.push_back({"time for fields [%]", share({Phase::forces, Phase::fields})});
+  table.rows.push_back({"time for output [%]", share({Phase::observers, Phase::output})});
+  return table;
 }
 
 ReportTable balance_table(const Simulation& simulation) {

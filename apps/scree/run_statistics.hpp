@@ -34,6 +34,10 @@ class RunStatistics {
   double max_penetration_ = 0.0;   // [m]
 };
 
+/// What the contacts cost and how well they were solved, for the terminal: numbers of the measures above, each with its
+/// unit, and the shares of the wall time.
+[[nodiscard]] ReportTable work_table(const RunStatistics& statistics, const PhaseTimer& timer);
+
 /// Per material: fed, in flight, removed, by number and mass. In flight is counted from the bodies themselves.
 [[nodiscard]] ReportTable balance_table(const Simulation& simulation);
 

@@ -41,6 +41,10 @@ PluginHost find(const std::vector<NamedPlace>& of_scene, const std::vector<std::
 
 }  // namespace
 
+std::filesystem::path scene_file(const std::filesystem::path& scene) {
+  return std::filesystem::is_directory(scene) ? scene / "scene.toml" : scene;
+}
+
 PluginHost find_general_plugins(const std::vector<std::string>& plugin_dirs) { return find({}, plugin_dirs); }
 
 PluginHost find_scene_plugins(const SceneDocument& scene, const std::vector<std::string>& plugin_dirs) {

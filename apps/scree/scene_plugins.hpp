@@ -11,6 +11,9 @@ namespace scree {
 
 class SceneDocument;
 
+/// The scene file that a user means: a folder stands for the scene.toml in it.
+[[nodiscard]] std::filesystem::path scene_file(const std::filesystem::path& scene);
+
 /// The plugins of the folders in `plugin_dirs`, of SCREE_PLUGIN_PATH and of scree itself. Prints a warning for every
 /// file that was left out. @throws Error (usage) for a folder that does not exist.
 [[nodiscard]] PluginHost find_general_plugins(const std::vector<std::string>& plugin_dirs);
