@@ -120,9 +120,18 @@ void BinsObserver::setup_categories(SceneServices& services) {
     throw options_.error(fmt::format("{} materials and targets are more than the {} that bins can tell apart",
                                      count - 1, kMostCategories - 1));
   }
+  std::erase_if(targets_, [&](const Target& target) {
+    const std::size_t material = categories_.find(target.name);
+    const bool alias = material < categories_.names.size() && target.attribute.empty() &&
+                       target.materials == std::vector<std::string>{target.name};
+    if (alias) categories_.aliased.push_back(material);
+    return alias;
+  });
   for (Target& target : targets_) {
-    if (categories_.find(target.name) < categories_.names.size()) {
-      throw options_.error("target", "\"" + target.name + "\" names a material or another target; names must differ");
+    if (categories_.find(target.name) < categories_.names.size() || target.name == categories_.names[0]) {
+      throw options_.error(
+          "target",
+          "\"" + target.name + "\" already names a material, another target, or all bodies; names must differ");
     }
     categories_.names.push_back(target.name);
     for (const std::string& material : target.materials) {

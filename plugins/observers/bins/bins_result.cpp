@@ -27,10 +27,12 @@ std::vector<std::size_t> BinsResult::shown() const {
 }
 
 std::vector<std::size_t> BinsResult::judged() const {
-  const bool targets = categories.first_target < categories.names.size();
+  const std::vector<std::size_t>& aliased = categories.aliased;
+  const bool targets = categories.first_target < categories.names.size() || !aliased.empty();
   std::vector<std::size_t> list;
   for (const std::size_t c : shown()) {
-    if (!targets || c >= categories.first_target) list.push_back(c);
+    const bool alias = std::find(aliased.begin(), aliased.end(), c) != aliased.end();
+    if (!targets || alias || c >= categories.first_target) list.push_back(c);
   }
   return list;
 }
@@ -56,8 +58,8 @@ void write_bins_table(const BinsResult& result, const std::filesystem::path& fil
   }
   CsvWriter table{file, columns};
   for (std::size_t bin = 0; bin < c.bins(); ++bin) {
-    const auto iu = static_cast<double>(bin % static_cast<std::size_t>(c.u_bins()));
-    const auto iv = static_cast<double>(bin / static_cast<std::size_t>(c.u_bins()));
+    const std::size_t row = bin / static_cast<std::size_t>(c.u_bins());
+    const auto iu = static_cast<double>(bin % static_cast<std::size_t>(c.u_bins())), iv = static_cast<double>(row);
     const double du = norm(c.u()) / c.u_bins(), dv = norm(c.v()) / c.v_bins();
     const Vec3 centre = c.origin() + (iu + 0.5) / c.u_bins() * c.u() + (iv + 0.5) / c.v_bins() * c.v();
     table.cell(std::uint64_t{bin}).cell(iu * du).cell((iu + 1.0) * du).cell(iv * dv).cell((iv + 1.0) * dv);

@@ -15,7 +15,8 @@ namespace scree {
 /// What bodies are counted as. Category 0 is "all"; then come the materials, then the targets.
 struct Categories {
   std::vector<std::string> names;
-  std::size_t first_target = 0;  ///< index of the first target; names.size() without targets
+  std::size_t first_target = 0;      ///< index of the first target; names.size() without targets
+  std::vector<std::size_t> aliased;  ///< materials that are targets under their own name
 
   /// The index of a material or target, or names.size().
   [[nodiscard]] std::size_t find(const std::string& name) const;

@@ -298,6 +298,18 @@ TEST_F(bins, targets_may_depend_on_an_attribute_at_first_sight) {
   EXPECT_EQ(ledger.rows[2][1], "1") << "0.6 of three mixed ones; copper does not belong whatever its fraction";
 }
 
+TEST_F(bins, may_have_a_material_as_target_under_its_own_name) {
+  const auto observer = make("target = [{name = 'plastic', materials = ['plastic']}]", false);
+  Rain drops{2};
+  rain(*observer, drops, 1, 50);
+  observer->finish(at(50, drops.bodies(services.attributes()), drops.removed));
+  const auto tables = observer->report();
+  EXPECT_EQ(tables[0].rows.size(), 4u);  // three materials and all: the target is no row of its own
+  const ReportTable& products = tables[2];
+  EXPECT_EQ(products.header.size(), 7u) << "only the target is judged";
+  EXPECT_EQ(products.header[5], "plastic grade [%]");
+}
+
 TEST_F(bins, write_a_figure_of_the_output) {
   const auto observer = make("splitters = [0.3, 0.7]\nproducts = ['plastic', 'middlings', 'metal']\n");
   Rain drops{11};
@@ -323,7 +335,7 @@ TEST_F(bins, refuse_what_cannot_be_counted_in_one_sentence) {
   EXPECT_NE(said("splitters = [1.5]").find("between 0 and 1 m"), std::string::npos);
   EXPECT_NE(said("products = ['a', 'b']").find("2 are named"), std::string::npos);
   EXPECT_NE(said("product_targets = ['gold']").find("\"gold\""), std::string::npos);
-  EXPECT_NE(said("target = [{name = 'copper', materials = ['copper']}]").find("names must differ"), std::string::npos);
+  EXPECT_NE(said("target = [{name = 'copper', materials = ['mixed']}]").find("names must differ"), std::string::npos);
   EXPECT_NE(said("target = [{name = 'x'}]").find("needs `materials`"), std::string::npos);
 }
 
