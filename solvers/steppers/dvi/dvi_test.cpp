@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "support/memory_state.hpp"
+
 namespace scree::test {
 namespace {
 
@@ -221,6 +223,30 @@ TEST(dvi, two_threads_give_the_bits_of_one) {
   two.run(60, 2e-3);
   EXPECT_EQ(one.bodies.position, two.bodies.position);
   EXPECT_EQ(one.bodies.angular_velocity, two.bodies.angular_velocity);
+}
+
+TEST(dvi, restart_from_what_was_saved_goes_on_bit_for_bit) {
+  World whole, half;
+  fill(whole);
+  fill(half);
+  whole.run(60, 2e-3);
+  half.run(30, 2e-3);
+  MemoryState state;
+  MemoryWriter writer{state};
+  half.dvi.save(writer);
+
+  World resumed;
+  fill(resumed);
+  resumed.bodies.position = half.bodies.position;
+  resumed.bodies.orientation = half.bodies.orientation;
+  resumed.bodies.velocity = half.bodies.velocity;
+  resumed.bodies.angular_velocity = half.bodies.angular_velocity;
+  resumed.time = half.time;
+  resumed.dvi.load(MemoryReader{state});
+  resumed.run(30, 2e-3);
+  EXPECT_EQ(resumed.bodies.position, whole.bodies.position);
+  EXPECT_EQ(resumed.bodies.orientation, whole.bodies.orientation);
+  EXPECT_EQ(resumed.bodies.angular_velocity, whole.bodies.angular_velocity);
 }
 
 }  // namespace
