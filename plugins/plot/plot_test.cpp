@@ -25,7 +25,7 @@ std::string read(const fs::path& file) {
   return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-class figure_files : public testing::Test {
+class FigureFilesTest : public testing::Test {
  protected:
   void SetUp() override {
     folder = fs::temp_directory_path() / ("scree_plot_" + std::to_string(::getpid()));
@@ -72,7 +72,7 @@ TEST(axis_map, maps_the_ends_and_the_middle) {
   EXPECT_EQ(decades.ticks().size(), 5u);
 }
 
-TEST_F(figure_files, are_a_png_of_the_right_size_and_an_svg_that_is_xml) {
+TEST_F(FigureFilesTest, are_a_png_of_the_right_size_and_an_svg_that_is_xml) {
   write_figure(figure, folder / "test");
   const std::string png = read(folder / "test.png");
   ASSERT_GT(png.size(), 24u);
@@ -91,14 +91,14 @@ TEST_F(figure_files, are_a_png_of_the_right_size_and_an_svg_that_is_xml) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST_F(figure_files, are_the_same_for_the_same_figure) {
+TEST_F(FigureFilesTest, are_the_same_for_the_same_figure) {
   write_figure(figure, folder / "one");
   write_figure(figure, folder / "two");
   EXPECT_TRUE(read(folder / "one.svg") == read(folder / "two.svg"));
   EXPECT_TRUE(read(folder / "one.png") == read(folder / "two.png"));
 }
 
-TEST_F(figure_files, name_the_file_that_could_not_be_written) {
+TEST_F(FigureFilesTest, name_the_file_that_could_not_be_written) {
   try {
     write_figure(figure, folder / "missing" / "test");
     FAIL() << "no error";
@@ -108,7 +108,7 @@ TEST_F(figure_files, name_the_file_that_could_not_be_written) {
   }
 }
 
-TEST_F(figure_files, refuse_a_histogram_without_its_last_edge) {
+TEST_F(FigureFilesTest, refuse_a_histogram_without_its_last_edge) {
   figure.series[1].x.pop_back();
   EXPECT_THROW(write_figure(figure, folder / "test"), std::logic_error);
 }

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class results : public testing::Test {
+class ResultsTest : public testing::Test {
  protected:
   void SetUp() override {
     folder = fs::temp_directory_path() / ("scree_results_" + std::to_string(::getpid()));
@@ -43,12 +43,12 @@ class results : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(results, a_new_folder_is_made_with_its_parents) {
+TEST_F(ResultsTest, a_new_folder_is_made_with_its_parents) {
   const ResultFolder made = ResultFolder::create(folder / "a" / "b", false);
   EXPECT_TRUE(fs::is_directory(made.path()));
 }
 
-TEST_F(results, an_older_run_is_kept_unless_overwriting_is_asked_for) {
+TEST_F(ResultsTest, an_older_run_is_kept_unless_overwriting_is_asked_for) {
   const ResultFolder first = ResultFolder::create(folder, false);
   std::ofstream{first.file("run.json")} << "{}";
   const std::string said = message([&] { (void)ResultFolder::create(folder, false); });
@@ -57,7 +57,7 @@ TEST_F(results, an_older_run_is_kept_unless_overwriting_is_asked_for) {
   EXPECT_EQ(read(first.file("run.json")), "{}");
 }
 
-TEST_F(results, overwriting_removes_what_a_run_wrote_and_nothing_else) {
+TEST_F(ResultsTest, overwriting_removes_what_a_run_wrote_and_nothing_else) {
   const ResultFolder first = ResultFolder::create(folder, false);
   const std::vector<const char*> ours{"run.json", "steps.csv", "bins_end.csv", "particles_0001.vtp", "checkpoint.h5"};
   const std::vector<const char*> theirs{"notes.txt", "my_run.json", "bins_end.ods", "run.json.bak"};
@@ -68,21 +68,21 @@ TEST_F(results, overwriting_removes_what_a_run_wrote_and_nothing_else) {
   for (const char* name : theirs) EXPECT_EQ(read(first.file(name)), name);
 }
 
-TEST_F(results, overwriting_refuses_a_folder_that_no_run_wrote) {
+TEST_F(ResultsTest, overwriting_refuses_a_folder_that_no_run_wrote) {
   fs::create_directories(folder);
   std::ofstream{folder / "steps.csv"} << "a table of somebody else";
   EXPECT_NE(message([&] { (void)ResultFolder::create(folder, true); }).find("no results of scree"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "steps.csv"));
 }
 
-TEST_F(results, a_file_in_the_way_is_named) {
+TEST_F(ResultsTest, a_file_in_the_way_is_named) {
   std::ofstream{folder} << "x";
   EXPECT_NE(message([&] { (void)ResultFolder::create(folder, true); }).find("is a file"), std::string::npos);
   EXPECT_NE(message([&] { (void)ResultFolder::create(folder / "sub", true); }).find(folder.string()),
             std::string::npos);
 }
 
-TEST_F(results, a_full_device_is_an_error_that_names_file_and_reason) {
+TEST_F(ResultsTest, a_full_device_is_an_error_that_names_file_and_reason) {
   const std::string said = message([] {
     OutputFile out{"/dev/full"};
     out.write("x");
@@ -91,7 +91,7 @@ TEST_F(results, a_full_device_is_an_error_that_names_file_and_reason) {
   EXPECT_NE(said.find("/dev/full: No space left on device"), std::string::npos) << said;
 }
 
-TEST_F(results, a_file_size_limit_is_an_error_at_the_row_that_met_it) {
+TEST_F(ResultsTest, a_file_size_limit_is_an_error_at_the_row_that_met_it) {
   fs::create_directories(folder);
   std::signal(SIGXFSZ, SIG_IGN);
   CsvWriter table{folder / "steps.csv", {{"x", "m"}}};
@@ -106,7 +106,7 @@ TEST_F(results, a_file_size_limit_is_an_error_at_the_row_that_met_it) {
   EXPECT_NE(said.find("steps.csv: File too large"), std::string::npos) << said;
 }
 
-TEST_F(results, a_table_reads_back_to_the_same_bits) {
+TEST_F(ResultsTest, a_table_reads_back_to_the_same_bits) {
   fs::create_directories(folder);
   CsvWriter table{folder / "t.csv", {{"x", "m/s"}, {"n", ""}, {"text", ""}}};
   const double x = 0.1 + 0.2;
@@ -121,7 +121,7 @@ TEST_F(results, a_table_reads_back_to_the_same_bits) {
   EXPECT_EQ(row.substr(row.find(',')), ",3,\"say \"\"a, b\"\"\"");
 }
 
-TEST_F(results, steps_and_removed_bodies_have_units_in_their_headers) {
+TEST_F(ResultsTest, steps_and_removed_bodies_have_units_in_their_headers) {
   fs::create_directories(folder);
   Materials materials;
   materials.add({"copper", 8900.0, {}, {}});
@@ -141,7 +141,7 @@ TEST_F(results, steps_and_removed_bodies_have_units_in_their_headers) {
             "17,copper,0.5,1.5,1,2,3,floor,left through z = 0\n");
 }
 
-TEST_F(results, run_json_holds_what_a_reader_looks_for) {
+TEST_F(ResultsTest, run_json_holds_what_a_reader_looks_for) {
   fs::create_directories(folder);
   RunRecord record;
   record.simulated_time = 0.1 + 0.2;

@@ -72,7 +72,7 @@ void expect_refusals(const StateReader& in) {
   EXPECT_NE(message([&] { (void)in.vectors("doubles"); }).find("multiple of three"), std::string::npos);
 }
 
-class checkpoint : public testing::Test {
+class CheckpointTest : public testing::Test {
  protected:
   void SetUp() override {
     folder = fs::temp_directory_path() / ("scree_state_" + std::to_string(::getpid()));
@@ -114,7 +114,7 @@ TEST(memory_state, refuses_a_name_written_twice) {
   EXPECT_THROW(state.writer().write("x", 2.0), Error);
 }
 
-TEST_F(checkpoint, returns_every_bit_that_was_written) {
+TEST_F(CheckpointTest, returns_every_bit_that_was_written) {
   save();
   const CheckpointReader in{file};
   EXPECT_EQ(in.header().scene_hash, "00c0ffee");
@@ -123,20 +123,20 @@ TEST_F(checkpoint, returns_every_bit_that_was_written) {
   expect_refusals(in.root());
 }
 
-TEST_F(checkpoint, refuses_a_name_written_twice) {
+TEST_F(CheckpointTest, refuses_a_name_written_twice) {
   CheckpointWriter out{{"", ""}};
   out.root().write("x", 1.0);
   EXPECT_THROW(out.root().write("x", 2.0), Error);
 }
 
-TEST_F(checkpoint, is_the_same_file_for_the_same_state) {
+TEST_F(CheckpointTest, is_the_same_file_for_the_same_state) {
   save();
   const std::string first = bytes();
   save();
   EXPECT_EQ(bytes(), first);
 }
 
-TEST_F(checkpoint, grows_beyond_one_piece_of_memory) {
+TEST_F(CheckpointTest, grows_beyond_one_piece_of_memory) {
   const std::vector<double> many(1'000'000, 0.25);
   CheckpointWriter out{{"", ""}};
   out.root().write("many", many);
@@ -144,7 +144,7 @@ TEST_F(checkpoint, grows_beyond_one_piece_of_memory) {
   EXPECT_EQ(CheckpointReader{file}.root().doubles("many"), many);
 }
 
-TEST_F(checkpoint, says_what_is_wrong_with_a_file) {
+TEST_F(CheckpointTest, says_what_is_wrong_with_a_file) {
   EXPECT_NE(reading().find("there is no checkpoint " + file.string()), std::string::npos);
   put("[simulation]\nend_time = 5\n");
   EXPECT_NE(reading().find("not an HDF5 file"), std::string::npos);
@@ -153,7 +153,7 @@ TEST_F(checkpoint, says_what_is_wrong_with_a_file) {
   EXPECT_NE(message([&] { const CheckpointReader in{folder}; }).find("is not a file"), std::string::npos);
 }
 
-TEST_F(checkpoint, refuses_a_file_cut_at_any_length) {
+TEST_F(CheckpointTest, refuses_a_file_cut_at_any_length) {
   save();
   const std::string whole = bytes();
   for (std::size_t size = 0; size < whole.size(); size += 97) {
@@ -164,7 +164,7 @@ TEST_F(checkpoint, refuses_a_file_cut_at_any_length) {
   }
 }
 
-TEST_F(checkpoint, notices_a_changed_number) {
+TEST_F(CheckpointTest, notices_a_changed_number) {
   save();
   std::string content = bytes();
   const double sought = kVectors[1].x;
@@ -175,13 +175,13 @@ TEST_F(checkpoint, notices_a_changed_number) {
   EXPECT_NE(reading().find("damaged"), std::string::npos);
 }
 
-TEST_F(checkpoint, refuses_a_foreign_hdf5_file) {
+TEST_F(CheckpointTest, refuses_a_foreign_hdf5_file) {
   const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   H5Fclose(id);
   EXPECT_NE(reading().find("not a checkpoint of scree"), std::string::npos);
 }
 
-TEST_F(checkpoint, keeps_the_last_good_file_when_the_disk_is_full) {
+TEST_F(CheckpointTest, keeps_the_last_good_file_when_the_disk_is_full) {
   save();
   const std::string good = bytes();
   std::signal(SIGXFSZ, SIG_IGN);

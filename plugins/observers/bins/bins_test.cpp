@@ -91,7 +91,7 @@ std::vector<std::vector<std::string>> read_csv(const fs::path& file) {
   return rows;
 }
 
-class bins : public testing::Test {
+class BinsTest : public testing::Test {
  protected:
   void SetUp() override {
     folder = fs::temp_directory_path() / ("scree_bins_" + std::to_string(::getpid()));
@@ -129,7 +129,7 @@ class bins : public testing::Test {
   test::FakeSceneServices services;
 };
 
-TEST_F(bins, put_a_known_trajectory_into_its_bin_once) {
+TEST_F(BinsTest, put_a_known_trajectory_into_its_bin_once) {
   const auto observer = make();
   test::TestBodies bodies{services.attributes()};
   bodies.add_sphere(1, {0.31, 1.0, 0.6}, 1e-3, 1000.0);  // crosses at x = 0.335: bin 3 of row 1
@@ -152,7 +152,7 @@ TEST_F(bins, put_a_known_trajectory_into_its_bin_once) {
   EXPECT_EQ(ledger.rows.back()[4], "1");  // collected
 }
 
-TEST_F(bins, see_a_body_that_crosses_in_the_step_it_was_fed_in) {
+TEST_F(BinsTest, see_a_body_that_crosses_in_the_step_it_was_fed_in) {
   const auto observer = make();
   test::TestBodies bodies{services.attributes()};
   bodies.add_sphere(1, {0.55, -0.1, 0.5}, 1e-3, 1000.0, {0, -2.0, 0});  // it came from y = 0.1
@@ -161,7 +161,7 @@ TEST_F(bins, see_a_body_that_crosses_in_the_step_it_was_fed_in) {
 }
 
 // Numbers exactly and masses to rounding, for every category, and against an independent count of the rain.
-TEST_F(bins, account_for_everything_in_any_rain) {
+TEST_F(BinsTest, account_for_everything_in_any_rain) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto observer = make("target = [{name = 'metal', materials = ['copper', 'mixed']}]");
     Rain drops{seed};
@@ -185,7 +185,7 @@ TEST_F(bins, account_for_everything_in_any_rain) {
   }
 }
 
-TEST_F(bins, tables_close_with_the_ledger_and_with_the_time_series) {
+TEST_F(BinsTest, tables_close_with_the_ledger_and_with_the_time_series) {
   const auto observer = make();
   Rain drops{3};
   rain(*observer, drops, 1, 50);
@@ -217,7 +217,7 @@ TEST_F(bins, tables_close_with_the_ledger_and_with_the_time_series) {
   }
 }
 
-TEST_F(bins, go_on_from_a_checkpoint_as_if_there_had_been_none) {
+TEST_F(BinsTest, go_on_from_a_checkpoint_as_if_there_had_been_none) {
   const auto whole = make("", false);
   Rain drops{5}, same_drops{5};
   rain(*whole, drops, 1, 40);
@@ -240,7 +240,7 @@ TEST_F(bins, go_on_from_a_checkpoint_as_if_there_had_been_none) {
 }
 
 // A checkpoint may lie after the end of a run has been reported: the removals told then are told once more.
-TEST_F(bins, count_a_removal_once_however_often_they_hear_of_it) {
+TEST_F(BinsTest, count_a_removal_once_however_often_they_hear_of_it) {
   const auto observer = make("", false);
   test::TestBodies bodies{services.attributes()};
   bodies.add_sphere(7, {0.5, 1, 0.5}, 1e-3, 1000.0);
@@ -254,7 +254,7 @@ TEST_F(bins, count_a_removal_once_however_often_they_hear_of_it) {
   EXPECT_EQ(ledger.rows.back()[3], "2");
 }
 
-TEST_F(bins, divide_at_the_splitter_and_judge_the_products) {
+TEST_F(BinsTest, divide_at_the_splitter_and_judge_the_products) {
   const auto observer =
       make("splitters = ['55 cm']\nproducts = ['light', 'heavy']\nproduct_targets = ['plastic', 'copper']\n", false);
   test::TestBodies bodies{services.attributes()};
@@ -283,14 +283,14 @@ TEST_F(bins, divide_at_the_splitter_and_judge_the_products) {
   EXPECT_EQ(best[3], "100.00");
 }
 
-TEST_F(bins, targets_may_depend_on_an_attribute_at_first_sight) {
+TEST_F(BinsTest, targets_may_depend_on_an_attribute_at_first_sight) {
   const auto observer =
       make("target = [{name = 'rich', materials = ['mixed'], attribute = 'metal_fraction', at_least = 0.4}]", false);
   test::TestBodies bodies{services.attributes()};
-  for (int i = 0; i < 4; ++i) {
-    bodies.add_sphere(static_cast<BodyId>(i + 1), {0.5, 1, 0.5}, 1e-3, 1000.0);
+  for (BodyId i = 0; i < 4; ++i) {
+    bodies.add_sphere(i + 1, {0.5, 1, 0.5}, 1e-3, 1000.0);
     bodies.material.back() = i == 3 ? 0 : 2;
-    services.attributes().column(services.attributes().id("metal_fraction")).back() = 0.3 * i;
+    services.attributes().column(services.attributes().id("metal_fraction")).back() = 0.3 * static_cast<double>(i);
   }
   observer->observe(at(0, bodies), services.attributes());
   const auto ledger = observer->report().front();
@@ -298,7 +298,7 @@ TEST_F(bins, targets_may_depend_on_an_attribute_at_first_sight) {
   EXPECT_EQ(ledger.rows[2][1], "1") << "0.6 of three mixed ones; copper does not belong whatever its fraction";
 }
 
-TEST_F(bins, may_have_a_material_as_target_under_its_own_name) {
+TEST_F(BinsTest, may_have_a_material_as_target_under_its_own_name) {
   const auto observer = make("target = [{name = 'plastic', materials = ['plastic']}]", false);
   Rain drops{2};
   rain(*observer, drops, 1, 50);
@@ -310,7 +310,7 @@ TEST_F(bins, may_have_a_material_as_target_under_its_own_name) {
   EXPECT_EQ(products.header[5], "plastic grade [%]");
 }
 
-TEST_F(bins, write_a_figure_of_the_output) {
+TEST_F(BinsTest, write_a_figure_of_the_output) {
   const auto observer = make("splitters = [0.3, 0.7]\nproducts = ['plastic', 'middlings', 'metal']\n");
   Rain drops{11};
   rain(*observer, drops, 1, 200);
@@ -322,7 +322,7 @@ TEST_F(bins, write_a_figure_of_the_output) {
   }
 }
 
-TEST_F(bins, refuse_what_cannot_be_counted_in_one_sentence) {
+TEST_F(BinsTest, refuse_what_cannot_be_counted_in_one_sentence) {
   const auto said = [&](const std::string& more) -> std::string {
     try {
       (void)make(more, false);

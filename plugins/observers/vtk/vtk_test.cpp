@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-class vtk_observer : public testing::Test {
+class VtkObserverTest : public testing::Test {
  protected:
   void SetUp() override {
     folder = fs::temp_directory_path() / ("scree_vtk_" + std::to_string(::getpid()));
@@ -49,12 +49,13 @@ class vtk_observer : public testing::Test {
   void add_bodies() {
     bodies.add_immovable(1, {0, 0, -1});
     bodies.shape[0] = 1;
-    for (int i = 0; i < 3; ++i) {
-      bodies.add_sphere(static_cast<BodyId>(10 + i), {0.1 * i, 0.7, -0.3}, 3e-3, 1000.0, {1.0 / 3.0, 2, 3.0 * i});
+    for (BodyId i = 0; i < 3; ++i) {
+      const auto x = static_cast<double>(i);
+      bodies.add_sphere(10 + i, {0.1 * x, 0.7, -0.3}, 3e-3, 1000.0, {1.0 / 3.0, 2, 3.0 * x});
       bodies.material.back() = 1;
       bodies.angular_velocity.back() = {0, 0, 5};
-      bodies.orientation.back() = from_rotation_vector({0, 0, 0.1 * i});
-      services.attributes().column(charge).back() = 1e-10 * i;
+      bodies.orientation.back() = from_rotation_vector({0, 0, 0.1 * x});
+      services.attributes().column(charge).back() = 1e-10 * x;
       services.attributes().column(other_charge).back() = -3e-10;
     }
   }
@@ -113,7 +114,7 @@ Json expected_particles(const test::TestBodies& bodies, const std::string& file,
           {"tolerance", tolerance}, {"time", time},     {"materials", {"copper", "PE & \"PP\" <1>"}}};
 }
 
-TEST_F(vtk_observer, files_read_back_with_vtk_to_every_value) {
+TEST_F(VtkObserverTest, files_read_back_with_vtk_to_every_value) {
   VtkObserver observer = make("interval = 0.2\nspheres = true");
   observer.setup(services, folder);
   observe(observer, 1, 3);
@@ -144,7 +145,7 @@ TEST_F(vtk_observer, files_read_back_with_vtk_to_every_value) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST_F(vtk_observer, single_precision_keeps_seven_digits) {
+TEST_F(VtkObserverTest, single_precision_keeps_seven_digits) {
   VtkObserver observer = make("precision = 'single'");
   observer.setup(services, folder);
   observer.finish(at(1));
@@ -158,7 +159,7 @@ TEST_F(vtk_observer, single_precision_keeps_seven_digits) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST_F(vtk_observer, arrays_of_many_blocks_and_of_none_are_whole) {
+TEST_F(VtkObserverTest, arrays_of_many_blocks_and_of_none_are_whole) {
   bodies = test::TestBodies{services.attributes()};
   VtkObserver observer = make("walls = false");
   observer.setup(services, folder);
@@ -176,7 +177,7 @@ TEST_F(vtk_observer, arrays_of_many_blocks_and_of_none_are_whole) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST_F(vtk_observer, walls_are_written_again_only_when_they_moved) {
+TEST_F(VtkObserverTest, walls_are_written_again_only_when_they_moved) {
   VtkObserver observer = make("interval = 0.1");
   observer.setup(services, folder);
   observe(observer, 1, 3);
@@ -186,7 +187,7 @@ TEST_F(vtk_observer, walls_are_written_again_only_when_they_moved) {
   EXPECT_EQ(files("particles_").size(), 5u);
 }
 
-TEST_F(vtk_observer, a_resumed_run_keeps_its_earlier_frames) {
+TEST_F(VtkObserverTest, a_resumed_run_keeps_its_earlier_frames) {
   VtkObserver first = make("interval = 0.2");
   first.setup(services, folder);
   observe(first, 1, 4);
@@ -202,7 +203,7 @@ TEST_F(vtk_observer, a_resumed_run_keeps_its_earlier_frames) {
   }
 }
 
-TEST_F(vtk_observer, writes_nothing_without_a_folder) {
+TEST_F(VtkObserverTest, writes_nothing_without_a_folder) {
   VtkObserver observer = make("");
   observer.setup(services, {});
   observe(observer, 0, 3);
