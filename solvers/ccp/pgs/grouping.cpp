@@ -1,0 +1,46 @@
+#include "grouping.hpp"
+
+#include <algorithm>
+
+namespace scree::pgs {
+
+namespace {
+constexpr std::size_t kQueue = 48;
+}
+
+void Grouping::build(const CcpProblem& problem, std::size_t chunk) {
+  const std::size_t m = problem.blocks();
+  groups.clear();
+  first.clear();
+  std::array<std::uint32_t, kQueue> queue{};
+  const auto share = [&](std::uint32_t i, std::uint32_t j) {
+    const CcpContact &x = problem.contacts[i], &y = problem.contacts[j];
+    const auto meets = [&](std::uint32_t k) { return (k == y.a || k == y.b) && problem.inverse_mass[k] > 0.0; };
+    return meets(x.a) || meets(x.b);
+  };
+  for (std::size_t begin = 0; begin < m; begin += chunk) {
+    first.push_back(static_cast<std::uint32_t>(groups.size()));
+    const std::size_t end = std::min(begin + chunk, m);
+    std::size_t next = begin, waiting = 0;
+    while (next < end || waiting > 0) {
+      while (waiting < kQueue && next < end) queue[waiting++] = static_cast<std::uint32_t>(next++);
+      // One walk through the queue: what fits goes into the group, the rest moves up.
+      std::array<std::uint32_t, 4> group{kNoContact, kNoContact, kNoContact, kNoContact};
+      std::size_t members = 0, kept = 0;
+      for (std::size_t k = 0; k < waiting; ++k) {
+        bool fits = members < group.size();
+        for (std::size_t g = 0; g < members && fits; ++g) fits = !share(queue[k], group[g]);
+        if (fits) {
+          group[members++] = queue[k];
+        } else {
+          queue[kept++] = queue[k];
+        }
+      }
+      waiting = kept;
+      groups.push_back(group);
+    }
+  }
+  first.push_back(static_cast<std::uint32_t>(groups.size()));
+}
+
+}  // namespace scree::pgs

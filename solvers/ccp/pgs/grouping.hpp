@@ -1,0 +1,26 @@
+// Puts contacts into groups of four that share no movable body.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "scree/ccp/problem.hpp"
+
+namespace scree::pgs {
+
+inline constexpr std::uint32_t kNoContact = std::numeric_limits<std::uint32_t>::max();
+
+/// The contacts of each group, in the order of a sweep.
+struct Grouping {
+  std::vector<std::array<std::uint32_t, 4>> groups;  ///< kNoContact: an empty lane
+  std::vector<std::uint32_t> first;                  ///< first group of each chunk of contacts, and the end
+
+  /// Groups never reach across chunks of `chunk` contacts. Contacts are taken in
+  /// order as far as they fit, from a short queue, so that memory is still
+  /// walked through in order.
+  void build(const CcpProblem& problem, std::size_t chunk);
+};
+
+}  // namespace scree::pgs
