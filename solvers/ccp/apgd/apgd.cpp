@@ -20,7 +20,7 @@ std::vector<Parameter> Apgd::parameters() {
       Parameter::boolean("scaled", "measure each contact in its own mass; false: one length for all").by_default(true),
       Parameter::boolean("restart", "drop the momentum when it points uphill").by_default(true),
       Parameter::number("growth", "1", "factor on the step length after each accepted step")
-          .by_default(1.05)
+          .by_default(1.0)
           .at_least(1.0)
           .at_most(2.0),
       Parameter::integer("check_interval", "iterations between two computations of the residual")

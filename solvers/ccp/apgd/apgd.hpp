@@ -32,7 +32,7 @@ namespace scree {
 struct ApgdOptions {
   bool scaled = true;       ///< per-contact metric; false: one length for all, as in the paper
   bool restart = true;      ///< drop the momentum when it points uphill
-  double growth = 1.05;     ///< factor on the step after each accepted one [1]
+  double growth = 1.0;      ///< factor on the step after each accepted one [1]
   int check_interval = 10;  ///< iterations between two computations of the residual
 };
 
