@@ -86,6 +86,25 @@ TEST_F(bed, a_limit_takes_the_first_ones) {
   EXPECT_EQ(emit(*make("limit = 9")).size(), 3U);
 }
 
+TEST_F(bed, walls_stand_around_the_box_of_the_file) {
+  write(kThree);
+  const std::vector<NewBody> born = emit(*make("walls = 'glass'"));
+  ASSERT_EQ(born.size(), 8U);  // a floor and four walls first
+  const Vec3 inside{0.001, -0.002, 0.003};
+  double walls = 0.0, floors = 0.0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(born[i].motion, Motion::fixed);
+    const Vec3 normal = rotate(born[i].pose.orientation, {0, 0, 1});
+    // The height of an inner point above every plane is its distance from the side of the box, to rounding.
+    const double height = dot(normal, inside - born[i].pose.position);
+    const double side = 0.025 + normal.x * inside.x + normal.y * inside.y;
+    EXPECT_NEAR(height, normal.z > 0.5 ? inside.z : side, 1e-15);
+    (normal.z > 0.5 ? floors : walls) += 1.0;
+  }
+  EXPECT_EQ(floors, 1.0);
+  EXPECT_EQ(walls, 4.0);
+}
+
 TEST_F(bed, is_not_added_again_after_a_restart) {
   write(kThree);
   const auto before = make(), after = make();
