@@ -1,6 +1,7 @@
 #include "progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,13 @@ constexpr double kPipeInterval = 10.0;     // between two lines in a pipe, at mo
 
 double share_done(double time, double start, double end) {
   return end > start ? std::clamp((time - start) / (end - start), 0.0, 1.0) : 1.0;
+}
+
+/// Characters that fit into a line of the terminal; a longer line would wrap and could not be written over.
+std::size_t terminal_width() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return 79;
+  return size.ws_col - 1u;
 }
 
 }  // namespace
@@ -55,7 +63,7 @@ void Progress::update(const ProgressState& now) {
     if (!last && shown_ >= 0.0 && now.wall_time - shown_ < kTerminalInterval) return;
     shown_ = now.wall_time;
     open_ = true;
-    fmt::print("\r\x1b[K{}", progress_line(now, start_));
+    fmt::print("\r\x1b[K{:.{}}", progress_line(now, start_), terminal_width());
   } else {
     if (!pace_.due(now.time, now.wall_time)) return;
     fmt::print("{}\n", progress_line(now, start_));

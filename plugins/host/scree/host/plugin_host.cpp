@@ -80,7 +80,10 @@ std::string PluginHost::unknown(std::string_view kind, std::string_view name) co
     if (!std::filesystem::exists(searched_[i])) text += " (does not exist)";
   }
   if (searched_.empty()) text += "no folder";
-  for (const std::string& reason : refused_) text += "; left out " + reason;
+  if (refused_.size() == 1) text += "; left out " + refused_.front();
+  if (refused_.size() > 1) {
+    text += "; left out " + std::to_string(refused_.size()) + " files, the first: " + refused_.front();
+  }
   return text;
 }
 

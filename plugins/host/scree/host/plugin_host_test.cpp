@@ -169,6 +169,17 @@ TEST(plugin_host, an_unknown_name_lists_what_exists_a_suggestion_and_the_folders
                 fixture("no_symbol").string() + ": " + refusal_of(fixture("no_symbol")));
 }
 
+TEST(plugin_host, many_files_left_out_do_not_drown_the_sentence) {
+  PluginHost host;
+  host.search(fixture("no_symbol").parent_path());
+  host.search(fixture("old_abi").parent_path());
+  const std::string sentence = message_of([&] { (void)host.entry("force_field", "push", {}); });
+  EXPECT_NE(sentence.find("left out 2 files, the first: " + fixture("no_symbol").string()), std::string::npos)
+      << sentence;
+  EXPECT_EQ(sentence.find("old_abi.so"), std::string::npos) << sentence;
+  EXPECT_EQ(host.refused().size(), 2u) << "every reason stays to be asked for";
+}
+
 TEST(search_path, earlier_places_win_and_missing_named_places_are_errors) {
   PluginHost host;
   const std::vector<NamedPlace> scene{{fixture("twin_two", "twins"), {"scene.toml", 1, 1}}};

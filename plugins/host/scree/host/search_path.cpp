@@ -28,7 +28,8 @@ void find_plugins(PluginHost& host, std::span<const NamedPlace> of_scene, std::s
   find_named(host, of_scene);
   find_named(host, of_command_line);
   for (const auto& folder : environment_plugin_folders()) host.search(folder);
-  host.search(default_plugin_folder());
+  // An empty path would stand for the working directory.
+  if (const auto folder = default_plugin_folder(); !folder.empty()) host.search(folder);
 }
 
 std::filesystem::path default_plugin_folder() {
@@ -36,6 +37,7 @@ std::filesystem::path default_plugin_folder() {
   if (dladdr(reinterpret_cast<const void*>(&to_prefix), &library) == 0) return {};
   std::error_code failure;
   const std::filesystem::path file = std::filesystem::canonical(library.dli_fname, failure);
+  if (failure) return {};
   return file.parent_path() / "scree" / "plugins";
 }
 

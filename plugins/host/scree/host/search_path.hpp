@@ -22,7 +22,8 @@ struct NamedPlace {
 /// @throws Error (usage) when a named place does not exist or a named file does not fit.
 void find_plugins(PluginHost& host, std::span<const NamedPlace> of_scene, std::span<const NamedPlace> of_command_line);
 
-/// The folder scree/plugins beside libscree, in the build tree and where it is installed.
+/// The folder scree/plugins beside libscree, in the build tree and where it is installed; empty when that cannot be
+/// found out.
 [[nodiscard]] std::filesystem::path default_plugin_folder();
 
 /// The folders in the environment variable SCREE_PLUGIN_PATH.
