@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "say.hpp"
 #include "scene_plugins.hpp"
 #include "scree/config/scene_document.hpp"
 #include "scree/model/body_store.hpp"
@@ -25,13 +26,13 @@ void check(const CheckOptions& options) {
   const PluginHost host = find_scene_plugins(scene, options.plugin_dirs);
   const Simulation simulation{scene, host, {}};
   if (options.resolved) {
-    fmt::print("{}\n", simulation.resolved_scene());
+    say("{}\n", simulation.resolved_scene());
     return;
   }
-  fmt::print("{}: can run, {:.6g} s in steps of {:.6g} s; {} bodies at the start\n", options.scene.string(),
-             simulation.end_time(), simulation.time_step(), simulation.bodies().size());
-  for (const PartInfo& part : simulation.parts()) fmt::print("  {}\n", part.label_with_library());
-  for (const std::string& line : simulation.log()) fmt::print("  {}\n", line);
+  say("{}: can run, {:.6g} s in steps of {:.6g} s; {} bodies at the start\n", options.scene.string(),
+      simulation.end_time(), simulation.time_step(), simulation.bodies().size());
+  for (const PartInfo& part : simulation.parts()) say("  {}\n", part.label_with_library());
+  for (const std::string& line : simulation.log()) say("  {}\n", line);
 }
 
 }  // namespace

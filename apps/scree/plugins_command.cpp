@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "say.hpp"
 #include "scene_plugins.hpp"
 #include "scree/config/describe_text.hpp"
 
@@ -23,12 +24,12 @@ void list_plugins(const PluginHost& host) {
     width = std::max(width, entry->kind.size() + entry->name.size() + 1);
   }
   for (const PluginEntry* entry : host.entries()) {
-    fmt::print("{:<{}}  {}\n{:<{}}  {} {}\n", entry->kind + ":" + entry->name, width, entry->help, "", width,
-               entry->library, entry->version);
+    say("{:<{}}  {}\n{:<{}}  {} {}\n", entry->kind + ":" + entry->name, width, entry->help, "", width, entry->library,
+        entry->version);
   }
   if (!host.entries().empty()) return;
-  fmt::print("no plugins; searched in:\n");
-  for (const auto& folder : host.searched()) fmt::print("  {}\n", folder.string());
+  say("no plugins; searched in:\n");
+  for (const auto& folder : host.searched()) say("  {}\n", folder.string());
 }
 
 void show_plugin(const PluginHost& host, const std::string& name) {
@@ -37,9 +38,9 @@ void show_plugin(const PluginHost& host, const std::string& name) {
     throw Error{ErrorKind::usage, "'" + name + "' names no plugin; write KIND:NAME, for example force_field:" + name};
   }
   const PluginEntry& entry = host.entry(name.substr(0, colon), name.substr(colon + 1), {});
-  fmt::print("{}:{}\n  {}\n  from {} {}\n", entry.kind, entry.name, entry.help, entry.library, entry.version);
+  say("{}:{}\n  {}\n  from {} {}\n", entry.kind, entry.name, entry.help, entry.library, entry.version);
   const std::string parameters = describe_parameters(entry.parameters);
-  fmt::print("\n{}", parameters.empty() ? "  It takes no settings.\n" : parameters);
+  say("\n{}", parameters.empty() ? "  It takes no settings.\n" : parameters);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "say.hpp"
 
 namespace scree {
 namespace {
@@ -63,16 +64,16 @@ void Progress::update(const ProgressState& now) {
     if (!last && shown_ >= 0.0 && now.wall_time - shown_ < kTerminalInterval) return;
     shown_ = now.wall_time;
     open_ = true;
-    fmt::print("\r\x1b[K{:.{}}", progress_line(now, start_), terminal_width());
+    say("\r\x1b[K{:.{}}", progress_line(now, start_), terminal_width());
   } else {
     if (!pace_.due(now.time, now.wall_time)) return;
-    fmt::print("{}\n", progress_line(now, start_));
+    say("{}\n", progress_line(now, start_));
   }
   std::fflush(stdout);
 }
 
 void Progress::end_line() {
-  if (open_) fmt::print("\n");
+  if (open_) say("\n");
   open_ = false;
 }
 

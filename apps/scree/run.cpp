@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "say.hpp"
 #include "scree/interfaces/build_fingerprint.hpp"
 #include "scree/model/body_store.hpp"
 
@@ -131,11 +132,11 @@ void Run::write_record(int exit_code, const std::string& outcome) {
 }
 
 void Run::print_end(const std::string& outcome) const {
-  for (const ReportTable& table : record_.tables) fmt::print("\n{}", to_text(table));
-  fmt::print("\n{}", to_text(work_table(statistics_, simulation_.timer())));
-  if (options_.profile) fmt::print("\n{}", to_text(phase_table(simulation_.timer())));
-  fmt::print("\n{}, {} steps in {}, state {}; results in {}\n", outcome, record_.steps,
-             duration_text(record_.wall_time), to_hex(record_.state_hash), options_.output.string());
+  for (const ReportTable& table : record_.tables) say("\n{}", to_text(table));
+  say("\n{}", to_text(work_table(statistics_, simulation_.timer())));
+  if (options_.profile) say("\n{}", to_text(phase_table(simulation_.timer())));
+  say("\n{}, {} steps in {}, state {}; results in {}\n", outcome, record_.steps, duration_text(record_.wall_time),
+      to_hex(record_.state_hash), options_.output.string());
 }
 
 double Run::wall_time() const {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "say.hpp"
 #include "scene_plugins.hpp"
 #include "scree/config/schema.hpp"
 #include "scree/simulation/scene_sections.hpp"
@@ -52,7 +53,7 @@ void add_schema_command(CLI::App& app, int& /*exit_code*/) {
     const PluginHost host = find_general_plugins(*plugin_dirs);
     const std::vector<Parameter> root{
         Parameter::texts("plugins", "plugin files and folders, relative to the scene, searched first").optional()};
-    fmt::print("{}\n", scene_schema(schema_sections(host), root));
+    say("{}\n", scene_schema(schema_sections(host), root));
   });
 }
 
