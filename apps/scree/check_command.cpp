@@ -1,5 +1,4 @@
 // scree check SCENE.toml: everything but the run.
-#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>

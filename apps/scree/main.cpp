@@ -26,8 +26,9 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   try {
     const int exit_code = scree::run_command_line(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
       throw scree::Error{scree::ErrorKind::io, "standard output could not be written"};
+    }
     return exit_code;
   } catch (const scree::Error& error) {
     return report(error.what(), error.exit_code());

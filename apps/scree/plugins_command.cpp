@@ -1,5 +1,4 @@
 // scree plugins [show KIND:NAME]: what is there, from which file, and what it takes.
-#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,5 +1,4 @@
 // scree schema: the JSON Schema of scenes, from the settings that core and the plugins describe.
-#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
