@@ -48,7 +48,8 @@ class DelassusOperator {
   /// there is one.
   template <class Body>
   void for_chunks(std::size_t count, const Body& body) const {
-    if (executor_ != nullptr && executor_->threads() > 1) {
+    // A single chunk is not worth waking threads for.
+    if (count > kGrain && executor_ != nullptr && executor_->threads() > 1) {
       executor_->for_chunks(count, kGrain, body);
       return;
     }

@@ -135,7 +135,7 @@ void Pgs::sweep(const SolveContext& context) {
   };
   for (std::size_t colour = 0; colour + 1 < first.size(); ++colour) {
     const std::size_t begin = first[colour], count = first[colour + 1] - begin;
-    if (context.executor == nullptr || context.executor->threads() == 1) {
+    if (count == 1 || context.executor == nullptr || context.executor->threads() == 1) {
       run_chunks(begin, begin + count);
     } else {
       context.executor->for_chunks(count, 1, [&](std::size_t a, std::size_t b) { run_chunks(begin + a, begin + b); });
