@@ -90,6 +90,7 @@ Parts make_parts(const SceneDocument& document, const PluginCatalog& catalog) {
     parts.solver = make_part<CcpSolver>(root.table("ccp_solver"), catalog, &core);
     parts.solver_tolerance = core.number("tolerance");
     parts.solver_iterations = static_cast<int>(core.integer("max_iterations"));
+    parts.active_set = core.boolean("active_set");
   }
   parts.broad = make_required<BroadPhase>(root, catalog);
   parts.narrow = make_list<NarrowPhase>(root, catalog);

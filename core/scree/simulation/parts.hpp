@@ -26,6 +26,7 @@ struct Parts {
   std::optional<Part<CcpSolver>> solver;
   double solver_tolerance = 0.0;  ///< ccp_residual [m/s]
   int solver_iterations = 0;
+  bool active_set = true;  ///< solve by the contacts that matter (scree/ccp/active_set.hpp)
   Part<BroadPhase> broad;
   std::vector<Part<NarrowPhase>> narrow;
   std::vector<Part<ElectricField>> electric;

@@ -127,7 +127,10 @@ std::vector<SceneSection> part_sections() {
        {Parameter::number("tolerance", "m/s", "stop at this residual of the contact problem")
             .at_least(0.0)
             .by_default(1e-3),
-        Parameter::integer("max_iterations", "stop after so many iterations").at_least(1).by_default(100)}},
+        Parameter::integer("max_iterations", "stop after so many iterations").at_least(1).by_default(100),
+        Parameter::boolean("active_set",
+                           "put aside contacts that the guess leaves open, until a solve would close them")
+            .by_default(true)}},
       {"broad_phase", SectionForm::at_most_one_plugin, "Finds pairs of boxes that meet.", {}},
       {"narrow_phase", SectionForm::plugin_list, "Computes contacts; the first that supports a pair gets it.", {name}},
       {"electric_field", SectionForm::plugin_list, "Fields that force fields look up by name.", {name}},

@@ -57,7 +57,7 @@ std::string pair_table_json(const Materials& materials) {
 }
 
 /// The scene as JSON. With `motion_only`, without what does not decide how bodies move.
-std::string describe(const SceneModel& model, const Parts& parts, double tolerance, int iterations, bool motion_only) {
+std::string describe(const SceneModel& model, const Parts& parts, bool motion_only) {
   std::string json = "{";
   if (!motion_only) append(json, "simulation", to_json_text(model.simulation, -1));
   if (motion_only) {
@@ -85,8 +85,9 @@ std::string describe(const SceneModel& model, const Parts& parts, double toleran
     kind = info.kind;
     Options shown = options;
     if (info.kind == CcpSolver::kKind) {
-      shown.set("tolerance", Parameter::Value{tolerance});
-      shown.set("max_iterations", Parameter::Value{std::int64_t{iterations}});
+      shown.set("tolerance", Parameter::Value{parts.solver_tolerance});
+      shown.set("max_iterations", Parameter::Value{std::int64_t{parts.solver_iterations}});
+      shown.set("active_set", Parameter::Value{parts.active_set});
     }
     list.push_back(part_json(info, shown));
   });
@@ -135,12 +136,12 @@ std::string group_name(const PartInfo& info) { return info.kind + ":" + info.nam
 
 std::string Simulation::resolved_scene() const {
   const State& s = *state_;
-  return describe(s.model, s.parts, s.parts.solver_tolerance, s.parts.solver_iterations, false);
+  return describe(s.model, s.parts, false);
 }
 
 std::string Simulation::scene_hash() const {
   const State& s = *state_;
-  const std::string text = describe(s.model, s.parts, s.parts.solver_tolerance, s.parts.solver_iterations, true);
+  const std::string text = describe(s.model, s.parts, true);
   return to_hex(XXH3_64bits(text.data(), text.size()));
 }
 

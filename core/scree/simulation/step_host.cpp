@@ -26,8 +26,11 @@ SolveSummary StepHost::solve_ccp(const CcpProblem& problem, std::span<double> ga
                              .max_iterations = parts_.solver_iterations,
                              .executor = &executor_,
                              .on_iteration = {}};
-  return guarded(parts_.solver->info, ErrorKind::diverged,
-                 [&] { return parts_.solver->plugin->solve(problem, context, gamma); });
+  CcpSolver& solver = *parts_.solver->plugin;
+  return guarded(parts_.solver->info, ErrorKind::diverged, [&] {
+    return parts_.active_set ? active_set_.solve(solver, problem, context, gamma)
+                             : solver.solve(problem, context, gamma);
+  });
 }
 
 }  // namespace scree

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "scree/ccp/active_set.hpp"
 #include "scree/collision/collision_pipeline.hpp"
 #include "scree/interfaces/time_stepper.hpp"
 #include "scree/simulation/parts.hpp"
@@ -31,6 +32,7 @@ class StepHost final : public StepServices {
   const Materials& materials_;
   const Executor& executor_;
   PhaseTimer& timer_;
+  ActiveSetSolve active_set_;
 };
 
 }  // namespace scree
