@@ -24,6 +24,7 @@ import vtp
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TILE_BODIES = 8000
+TILE_SIDE = 0.1  # [m]
 COST_TILES = ((2, 2), (8, 4))        # 32 000 and 256 000 of a tile of 8000
 MEMORY_BODIES = (20000, 100000)
 
@@ -119,19 +120,19 @@ class Measured:
 
 
 def make_tile(program, folder):
-    """A settled bed of TILE_BODIES spheres 50 mm wide, by examples/settle."""
+    """A settled bed of TILE_BODIES spheres TILE_SIDE wide, by examples/settle."""
     tile = folder / "tile.txt"
     if not tile.exists():
         scene = folder / "tile.toml"
-        text = (ROOT / "examples/settle/scene.toml").read_text().replace("[[observer]]\ntype = \"contacts\"\ninterval = \"10 ms\"",
-                                                                         "[[observer]]\ntype = \"vtk\"\ninterval = 1.0")
-        scene.write_text(text)
-        subprocess.run([program, "run", str(scene), "-o", str(folder / "tile"), "--overwrite", "--quiet", "--end-time", "1 s",
+        text = (ROOT / "examples/settle/scene.toml").read_text().replace("25 mm", f"{1e3 * TILE_SIDE / 2} mm")
+        start = text.index("[[observer]]")
+        scene.write_text(text[:start] + '[[observer]]\ntype = "vtk"\ninterval = "100 ms"\n')
+        subprocess.run([program, "run", str(scene), "-o", str(folder / "tile"), "--overwrite", "--quiet", "--end-time", "800 ms",
                         "--set", f"source.fill.count={TILE_BODIES}", "--set", "ccp_solver.max_iterations=100"], check=True)
         arrays = vtp.read_arrays(sorted((folder / "tile").glob("particles_*.vtp"))[-1], ("Points", "radius", "velocity"))
         points, radii, speeds = arrays["Points"], arrays["radius"], arrays["velocity"]
         rows = [[*points[3 * i:3 * i + 3], radii[i], *speeds[3 * i:3 * i + 3]] for i in range(len(radii))]
-        tile.write_text(f"{len(rows)} 0.05\n" + "\n".join(" ".join(repr(v) for v in row) for row in rows) + "\n")
+        tile.write_text(f"{len(rows)} {TILE_SIDE}\n" + "\n".join(" ".join(repr(v) for v in row) for row in rows) + "\n")
     return tile
 
 

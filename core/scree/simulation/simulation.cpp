@@ -6,6 +6,11 @@
 #include "scree/simulation/simulation_state.hpp"
 
 namespace scree {
+namespace {
+
+constexpr std::size_t kManyBorn = 1000;  // in a step
+
+}  // namespace
 
 void MotionBackup::keep(const BodyView& bodies) {
   position.assign(bodies.position.begin(), bodies.position.end());
@@ -32,6 +37,8 @@ void Simulation::State::feed_sources() {
     born.clear();
     guarded(source.info, ErrorKind::diverged, [&] { source.plugin->emit(bodies.view(), time(), time_step, born); });
     for (NewBody& body : born) add(std::move(body));
+    // A bed of all particles at once is not kept twice for the rest of the run.
+    if (born.size() > kManyBorn) born = {};
   }
   fed_this_step = true;
 }

@@ -75,6 +75,7 @@ void BedSource::emit(const BodyView&, double, double, std::vector<NewBody>& out)
   if (done_) return;
   done_ = true;
   const Vec3 offset = options_.vector("offset");
+  out.reserve(out.size() + bed_.spheres.size() + 5);
   if (wall_material_) add_walls(offset, out);
   std::unordered_map<double, std::uint32_t> shape_of;  // by radius
   for (const BedSphere& sphere : bed_.spheres) {

@@ -107,6 +107,7 @@ void Fill::emit(const BodyView& bodies, double, double, std::vector<NewBody>& ou
   done_ = true;
   const std::vector<std::int64_t> cells = free_cells(bodies);
   check_room(static_cast<std::int64_t>(cells.size()));
+  out.reserve(out.size() + cells.size());
   for (const std::int64_t cell : cells) {
     Particle particle = mixture_->draw(*particles_);
     const double play = radius_ - particle.bounding_radius;
