@@ -45,25 +45,29 @@ void Canvas::set(Colour colour) {
   cairo_set_source_rgba(context_->cairo.get(), colour.red, colour.green, colour.blue, colour.opacity);
 }
 
-void Canvas::line(Point from, Point to, Colour colour, double width, bool dashed) {
+void Canvas::stroke(const std::vector<Point>& points, bool closed, Colour colour, double width, bool dashed) {
   cairo_t* cairo = context_->cairo.get();
   constexpr std::array kDashes{5.0, 4.0};
   set(colour);
   cairo_set_line_width(cairo, width);
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
   if (dashed) cairo_set_dash(cairo, kDashes.data(), static_cast<int>(kDashes.size()), 0.0);
-  cairo_move_to(cairo, from.first, from.second);
-  cairo_line_to(cairo, to.first, to.second);
+  for (const auto& [x, y] : points) cairo_line_to(cairo, x, y);
+  if (closed) cairo_close_path(cairo);
   cairo_stroke(cairo);
   cairo_set_dash(cairo, nullptr, 0, 0.0);
 }
 
-void Canvas::polyline(const std::vector<Point>& points, Colour colour, double width) {
-  cairo_t* cairo = context_->cairo.get();
-  set(colour);
-  cairo_set_line_width(cairo, width);
-  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-  for (const auto& [x, y] : points) cairo_line_to(cairo, x, y);
-  cairo_stroke(cairo);
+void Canvas::line(Point from, Point to, Colour colour, double width, bool dashed) {
+  stroke({from, to}, false, colour, width, dashed);
+}
+
+void Canvas::polyline(const std::vector<Point>& points, Colour colour, double width, bool dashed) {
+  stroke(points, false, colour, width, dashed);
+}
+
+void Canvas::outline(const std::vector<Point>& points, Colour colour, double width, bool dashed) {
+  stroke(points, true, colour, width, dashed);
 }
 
 void Canvas::fill(const std::vector<Point>& points, Colour colour) {

@@ -28,7 +28,9 @@ class Canvas {
   Canvas& operator=(const Canvas&) = delete;
 
   void line(Point from, Point to, Colour colour, double width, bool dashed = false);
-  void polyline(const std::vector<Point>& points, Colour colour, double width);
+  void polyline(const std::vector<Point>& points, Colour colour, double width, bool dashed = false);
+  /// A polyline back to its first point.
+  void outline(const std::vector<Point>& points, Colour colour, double width, bool dashed = false);
   void fill(const std::vector<Point>& points, Colour colour);
   void disc(Point centre, double radius, Colour colour);
   /// `y` is the baseline; with `upward` the text reads from the bottom to the top.
@@ -46,6 +48,7 @@ class Canvas {
   struct Context;
   explicit Canvas(std::unique_ptr<Context> context);
   void set(Colour colour);
+  void stroke(const std::vector<Point>& points, bool closed, Colour colour, double width, bool dashed);
   std::unique_ptr<Context> context_;
 };
 

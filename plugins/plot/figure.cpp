@@ -1,10 +1,10 @@
 #include "plot/figure.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "plot/axis_map.hpp"
 #include "plot/canvas.hpp"
+#include "plot/palette.hpp"
 #include "scree/base/require.hpp"
 #include "scree/results/output_file.hpp"
 
@@ -14,11 +14,6 @@ namespace {
 
 using Point = Canvas::Point;
 
-constexpr Colour kInk{0.1, 0.1, 0.1};
-constexpr Colour kGrid{0.88, 0.88, 0.88};
-constexpr Colour kGuide{0.35, 0.35, 0.35};
-constexpr std::array kColours{Colour{0.835, 0.369, 0.0}, Colour{0.0, 0.447, 0.698}, Colour{0.0, 0.620, 0.451},
-                              Colour{0.902, 0.624, 0.0}, Colour{0.8, 0.475, 0.655}, Colour{0.337, 0.706, 0.914}};
 constexpr double kSmall = 12.0, kNormal = 13.0, kLarge = 15.0;  // text sizes [px]
 constexpr double kFillOpacity = 0.22;
 

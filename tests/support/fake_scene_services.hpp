@@ -35,6 +35,14 @@ class FakeSceneServices final : public SceneServices {
     return *find(fields_, name, "electric field");
   }
   [[nodiscard]] NamedBody body(std::string_view name) const override { return find(bodies_, name, "body"); }
+  [[nodiscard]] std::vector<std::string> body_names() const override {
+    std::vector<std::string> names;
+    for (const auto& [name, body] : bodies_) {
+      if (names.size() <= body.id) names.resize(body.id + 1);
+      names[body.id] = name;
+    }
+    return names;
+  }
   [[nodiscard]] std::uint32_t material(std::string_view name) const override {
     const std::int64_t index = materials_.find(name);
     if (index < 0) throw Error{ErrorKind::usage, "no material '" + std::string{name} + "'"};

@@ -39,6 +39,7 @@ void Observer::finish(const Observation&) {}
 std::vector<ReportTable> Observer::report() const { return {}; }
 
 std::string SceneServices::part_name() const { return {}; }
+std::vector<std::string> SceneServices::body_names() const { return {}; }
 
 Sink::~Sink() = default;
 void Sink::setup(SceneServices&) {}

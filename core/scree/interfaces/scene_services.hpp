@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scree/model/attributes.hpp"
 #include "scree/model/body.hpp"
@@ -62,6 +63,9 @@ class SceneServices {
   [[nodiscard]] virtual double end_time() const = 0;
   /// Lines for the log: what was assumed, what was measured at setup.
   virtual void log(std::string_view line) const = 0;
+
+  /// Names of the scene's bodies: entry k belongs to the body with id k, empty when it has none. For labels.
+  [[nodiscard]] virtual std::vector<std::string> body_names() const;
 };
 
 }  // namespace scree

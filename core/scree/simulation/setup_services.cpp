@@ -80,6 +80,12 @@ NamedBody SetupServices::body(std::string_view name) const {
   throw_unknown(*part_, "body", name, known);
 }
 
+std::vector<std::string> SetupServices::body_names() const {
+  std::vector<std::string> names;
+  for (const SceneBody& body : context_.model.bodies) names.push_back(body.name);
+  return names;
+}
+
 std::uint32_t SetupServices::material(std::string_view name) const {
   const std::int64_t index = context_.model.materials.find(name);
   if (index < 0) throw_unknown(*part_, "material", name, context_.model.materials.names());

@@ -47,6 +47,7 @@ class SetupServices final : public SceneServices {
   [[nodiscard]] double time_step() const override { return context_.time_step; }
   [[nodiscard]] double end_time() const override { return context_.end_time; }
   void log(std::string_view line) const override;
+  [[nodiscard]] std::vector<std::string> body_names() const override;
 
  private:
   // Every quantity in an `attributes` table has the dimension of its column.
