@@ -16,6 +16,7 @@ using Point = Canvas::Point;
 
 constexpr double kSmall = 12.0, kNormal = 13.0, kLarge = 15.0;  // text sizes [px]
 constexpr double kFillOpacity = 0.22;
+constexpr double kSwatch = 22.0, kPad = 8.0, kLegendRow = 19.0;  // of the legend [px]
 
 Colour with_opacity(Colour colour, double opacity) { return {colour.red, colour.green, colour.blue, opacity}; }
 
@@ -120,16 +121,27 @@ class Painter {
     }
   }
 
-  // One row between the titles and the frame, where it hides no data.
+  // Where the entries of the legend begin: rows between the titles and the frame, where they hide no data.
+  [[nodiscard]] std::vector<Point> legend_places() const {
+    std::vector<Point> places;
+    Point next{left_, 63};
+    for (const Series& s : figure_.series) {
+      const double width = s.label.empty() ? 0.0 : kSwatch + canvas_.text_width(s.label, kSmall) + kPad;
+      if (next.first > left_ && next.first + width > right_) next = {left_, next.second + kLegendRow};
+      places.push_back(next);
+      if (width > 0.0) next.first += width + 3 * kPad;
+    }
+    return places;
+  }
+  [[nodiscard]] double legend_bottom() const { return legend_places_.empty() ? 63.0 : legend_places_.back().second; }
+
   void legend() {
-    constexpr double kSwatch = 22.0, kPad = 8.0;
-    double x = left_;
     for (std::size_t i = 0; i < figure_.series.size(); ++i) {
       const Series& s = figure_.series[i];
       if (s.label.empty()) continue;
-      swatch(s.style, {x, 63}, kSwatch, kColours[i % kColours.size()]);
-      canvas_.text({x + kSwatch + kPad, 67}, s.label, kSmall, Anchor::left);
-      x += kSwatch + canvas_.text_width(s.label, kSmall) + 4 * kPad;
+      const auto [x, y] = legend_places_[i];
+      swatch(s.style, {x, y}, kSwatch, kColours[i % kColours.size()]);
+      canvas_.text({x + kSwatch + kPad, y + 4}, s.label, kSmall, Anchor::left);
     }
   }
 
@@ -145,7 +157,8 @@ class Painter {
   const Figure& figure_;
   Canvas& canvas_;
   double left_ = 78.0, right_ = figure_.width - 24.0;  // of the frame [px]
-  double top_ = 102.0, bottom_ = figure_.height - 58.0;
+  std::vector<Point> legend_places_ = legend_places();
+  double top_ = legend_bottom() + 39.0, bottom_ = figure_.height - 58.0;
   AxisMap x_, y_;
 };
 

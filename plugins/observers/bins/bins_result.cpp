@@ -92,15 +92,48 @@ void write_ledger(const BinsResult& result, const std::filesystem::path& file) {
   table.close();
 }
 
+namespace {
+
+// The strips along u that hold nearly everything, and the splitters, as shares of u; the whole when nothing lies in bins.
+std::pair<double, double> shown_part(const BinsResult& result) {
+  constexpr double kStray = 1e-3, kMargin = 0.2;  // of a category's mass; of the part
+  const auto strips = static_cast<std::size_t>(result.collector.u_bins());
+  double first = 1.0, last = 0.0;
+  const auto show = [&](double from, double to) {
+    first = std::min(first, from);
+    last = std::max(last, to);
+  };
+  for (const std::size_t category : result.judged()) {
+    std::vector<double> mass(strips, 0.0);
+    for (std::size_t bin = 0; bin < result.bins.columns(); ++bin)
+      mass[bin % strips] += result.bins.at(category, bin).mass;
+    const double stray = kStray * result.bins.sum(category).mass;
+    for (std::size_t strip = 0; strip < strips; ++strip) {
+      const double edge = static_cast<double>(strip), count = static_cast<double>(strips);
+      if (mass[strip] > stray) show(edge / count, (edge + 1.0) / count);
+    }
+  }
+  if (first > last) return {0.0, 1.0};
+  for (const double splitter : result.plan.splitters) {
+    const double share = splitter / norm(result.collector.u());
+    show(share, share);
+  }
+  const double margin = kMargin * (last - first);
+  return {std::max(0.0, first - margin), std::min(1.0, last + margin)};
+}
+
+}  // namespace
+
 plot::Figure bins_figure(const BinsResult& result) {
   const ReadableAxis axis = readable_axis(result.collector);
   const auto strips = static_cast<std::size_t>(result.collector.u_bins());
   const auto edge = [&](double fraction) { return axis.at_origin + fraction * axis.per_u; };
+  const std::pair<double, double> shown = shown_part(result);
   plot::Figure figure;
   figure.title = "Output distribution: " + result.name;
   figure.note = fmt::format("{} bodies collected in {:g} s", result.tracker.binned().at(0).number, result.time);
   figure.x = {axis.name == "u" ? "distance along the collector [m]" : axis.name + " [m]", plot::Scale::linear,
-              std::minmax({edge(0.0), edge(1.0)})};
+              std::minmax({edge(shown.first), edge(shown.second)})};
   figure.y = {"share of the material's collected mass per bin [%]"};
   for (const std::size_t category : result.judged()) {
     const Tally total = result.bins.sum(category);

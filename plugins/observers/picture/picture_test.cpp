@@ -19,7 +19,7 @@ PictureObserver make(const std::string& options) {
   return PictureObserver{options_from_text(options, PictureObserver::parameters())};
 }
 
-class picture_observer : public testing::Test {
+class PictureObserverTest : public testing::Test {
  protected:
   void SetUp() override {
     folder = fs::temp_directory_path() / ("scree_picture_" + std::to_string(::getpid()));
@@ -81,7 +81,7 @@ std::size_t number_at(const std::string& bytes, std::size_t place) {
   return value;
 }
 
-TEST_F(picture_observer, of_a_scene_has_walls_with_names_and_grains_from_back_to_front) {
+TEST_F(PictureObserverTest, of_a_scene_has_walls_with_names_and_grains_from_back_to_front) {
   const Picture seen = scene({});
   ASSERT_EQ(seen.walls.size(), 1u);
   EXPECT_EQ(seen.walls[0].label, "roll <1>");
@@ -94,7 +94,7 @@ TEST_F(picture_observer, of_a_scene_has_walls_with_names_and_grains_from_back_to
   EXPECT_EQ(seen.colours, (std::vector<std::size_t>{2, 0, 1}));
 }
 
-TEST_F(picture_observer, shows_the_sense_of_a_turning_cylinder_as_the_viewer_sees_it) {
+TEST_F(PictureObserverTest, shows_the_sense_of_a_turning_cylinder_as_the_viewer_sees_it) {
   const Picture front = scene({});
   ASSERT_EQ(front.turns.size(), 1u);
   EXPECT_FALSE(front.turns[0].counterclockwise);
@@ -103,7 +103,7 @@ TEST_F(picture_observer, shows_the_sense_of_a_turning_cylinder_as_the_viewer_see
   EXPECT_TRUE(scene({.projection = {{1, 0, 0}, {0, 0, 1}}, .window = {}}).turns.empty());  // seen from the side
 }
 
-TEST_F(picture_observer, shows_a_plane_from_the_side_as_an_edge_and_from_above_not_at_all) {
+TEST_F(PictureObserverTest, shows_a_plane_from_the_side_as_an_edge_and_from_above_not_at_all) {
   const Picture side = scene({});
   ASSERT_EQ(side.edges.size(), 1u);
   EXPECT_NEAR(side.edges[0].normal.y, 1.0, 1e-12);  // some roundings of the rotation
@@ -111,13 +111,13 @@ TEST_F(picture_observer, shows_a_plane_from_the_side_as_an_edge_and_from_above_n
   EXPECT_TRUE(scene({.projection = {{1, 0, 0}, {0, 0, -1}}, .window = {}}).edges.empty());
 }
 
-TEST_F(picture_observer, arrows_reach_where_a_particle_would_be) {
+TEST_F(PictureObserverTest, arrows_reach_where_a_particle_would_be) {
   const Picture seen = scene({.window = {}, .velocity_arrows = 0.05});
   ASSERT_EQ(seen.arrows.size(), 3u);
   for (const Arrow& arrow : seen.arrows) EXPECT_NEAR(arrow.to.y - arrow.from.y, -2.0 * 0.05, 1e-15);
 }
 
-TEST_F(picture_observer, png_has_its_signature_and_the_size_that_the_window_gives) {
+TEST_F(PictureObserverTest, png_has_its_signature_and_the_size_that_the_window_gives) {
   run("lower = [-0.2, -0.4]\nupper = [0.6, 0.4]\nwidth = 586", 3);
   const std::string png = read("picture_scene.png");
   ASSERT_GT(png.size(), 24u);
@@ -127,7 +127,7 @@ TEST_F(picture_observer, png_has_its_signature_and_the_size_that_the_window_give
   EXPECT_EQ(number_at(png, 20), 636u);
 }
 
-TEST_F(picture_observer, svg_is_well_formed_xml) {
+TEST_F(PictureObserverTest, svg_is_well_formed_xml) {
   run("svg = true\ntitle = 'a < b & c'\nvelocity_arrows = 0.01\n"
       "line = [{ from = [-0.2, -0.2, 0], to = [0.2, -0.2, 0], divisions = 4, label = 'bins' }]",
       1);
@@ -138,7 +138,7 @@ TEST_F(picture_observer, svg_is_well_formed_xml) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST_F(picture_observer, is_drawn_at_the_interval_and_is_the_same_file_each_time) {
+TEST_F(PictureObserverTest, is_drawn_at_the_interval_and_is_the_same_file_each_time) {
   run("interval = 0.2\nsvg = true\nat_end = false", 4);
   EXPECT_TRUE(fs::exists(folder / "picture_scene_00000002.png"));
   EXPECT_FALSE(fs::exists(folder / "picture_scene_00000003.png"));
@@ -148,7 +148,7 @@ TEST_F(picture_observer, is_drawn_at_the_interval_and_is_the_same_file_each_time
   EXPECT_EQ(read("picture_scene_00000002.svg"), first);
 }
 
-TEST_F(picture_observer, writes_nothing_without_a_folder) {
+TEST_F(PictureObserverTest, writes_nothing_without_a_folder) {
   PictureObserver observer = make("interval = 0.1");
   observer.setup(services, {});
   observer.observe(at(1), services.attributes());
@@ -156,7 +156,7 @@ TEST_F(picture_observer, writes_nothing_without_a_folder) {
   EXPECT_TRUE(fs::is_empty(folder));
 }
 
-TEST_F(picture_observer, of_no_bodies_can_be_drawn) {
+TEST_F(PictureObserverTest, of_no_bodies_can_be_drawn) {
   bodies = test::TestBodies{services.attributes()};
   run("", 1);
   EXPECT_TRUE(fs::exists(folder / "picture_scene.png"));
