@@ -1,5 +1,7 @@
 // scree run SCENE.toml: from the arguments to a run.
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <thread>
 
@@ -19,8 +21,11 @@ namespace fs = std::filesystem;
 /// "5", "5 s", "200 ms" in seconds. @throws Error (usage).
 double parse_end_time(const std::string& text) {
   try {
-    const double seconds = parse_quantity(text, "s");
-    if (seconds > 0.0) return seconds;
+    // As in a scene, a plain number is in SI.
+    double seconds = 0.0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+    if (problem != std::errc{} || end != text.data() + text.size()) seconds = parse_quantity(text, "s");
+    if (seconds > 0.0 && std::isfinite(seconds)) return seconds;
   } catch (const Error& problem) {
     throw Error{problem.kind(), {"--end-time", 0, 0}, problem.what()};
   }
