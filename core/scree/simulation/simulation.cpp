@@ -38,7 +38,7 @@ void Simulation::State::feed_sources() {
     guarded(source.info, ErrorKind::diverged, [&] { source.plugin->emit(bodies.view(), time(), time_step, born); });
     for (NewBody& body : born) add(std::move(body));
     // A bed of all particles at once is not kept twice for the rest of the run.
-    if (born.size() > kManyBorn) born = {};
+    if (born.size() > kManyBorn) std::vector<NewBody>{}.swap(born);
   }
   fed_this_step = true;
 }
