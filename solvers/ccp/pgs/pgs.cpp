@@ -64,22 +64,20 @@ void Pgs::prepare_bodies(const CcpProblem& problem) {
   for (std::size_t k = 0; k < n; ++k) {
     const auto& [v, w] = w_[k];
     const Mat3& j = problem.inverse_inertia[k];
-    bodies_[k].linear = pgs::Lanes{v.x, v.y, v.z, problem.inverse_mass[k]};
-    bodies_[k].angular = pgs::Lanes{w.x, w.y, w.z, isotropic ? j.row0.x : 0.0};
+    bodies_[k].linear = Lanes{v.x, v.y, v.z, problem.inverse_mass[k]};
+    bodies_[k].angular = Lanes{w.x, w.y, w.z, isotropic ? j.row0.x : 0.0};
     if (isotropic) continue;
-    inertias_[k].column[0] = pgs::Lanes{j.row0.x, j.row1.x, j.row2.x, 0.0};
-    inertias_[k].column[1] = pgs::Lanes{j.row0.y, j.row1.y, j.row2.y, 0.0};
-    inertias_[k].column[2] = pgs::Lanes{j.row0.z, j.row1.z, j.row2.z, 0.0};
+    inertias_[k].column[0] = Lanes{j.row0.x, j.row1.x, j.row2.x, 0.0};
+    inertias_[k].column[1] = Lanes{j.row0.y, j.row1.y, j.row2.y, 0.0};
+    inertias_[k].column[2] = Lanes{j.row0.z, j.row1.z, j.row2.z, 0.0};
   }
 }
 
 void Pgs::prepare_groups(const CcpProblem& problem, std::span<const double> gamma) {
-  const auto put = [](pgs::Lanes3& lanes, int k, const Vec3& v) {
-    lanes.x[k] = v.x, lanes.y[k] = v.y, lanes.z[k] = v.z;
-  };
+  const auto put = [](Lanes3& lanes, int k, const Vec3& v) { lanes.x[k] = v.x, lanes.y[k] = v.y, lanes.z[k] = v.z; };
   const auto nothing = static_cast<std::uint32_t>(problem.bodies());
   groups_.resize(grouping_.groups.size());
-  compliance_.assign(problem.compliance.empty() ? 0 : groups_.size(), pgs::Lanes3{});
+  compliance_.assign(problem.compliance.empty() ? 0 : groups_.size(), Lanes3{});
   for (std::size_t at = 0; at < groups_.size(); ++at) {
     pgs::Group& group = groups_[at];
     group = pgs::Group{};
@@ -146,7 +144,7 @@ void Pgs::sweep(const SolveContext& context) {
 
 double Pgs::residual(std::span<double> gamma) {
   for (std::size_t at = 0; at < groups_.size(); ++at) {
-    const pgs::Lanes3& g = groups_[at].g;
+    const Lanes3& g = groups_[at].g;
     for (int k = 0; k < 4; ++k) {
       const std::uint32_t i = grouping_.groups[at][static_cast<std::size_t>(k)];
       if (i != pgs::kNoContact) store_block(gamma, i, {g.x[k], g.y[k], g.z[k]});

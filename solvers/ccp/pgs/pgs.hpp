@@ -47,8 +47,8 @@ class Pgs final : public CcpSolver {
   std::vector<pgs::Body> bodies_;
   std::vector<pgs::Inertia> inertias_;  ///< empty when all bodies are isotropic
   pgs::Grouping grouping_;
-  std::vector<pgs::Group> groups_;       ///< as in grouping_
-  std::vector<pgs::Lanes3> compliance_;  ///< per group; empty without compliance
+  std::vector<pgs::Group> groups_;  ///< as in grouping_
+  std::vector<Lanes3> compliance_;  ///< per group; empty without compliance
   std::vector<Twist> w_;
   std::vector<double> partial_;
   std::vector<double> guess_;

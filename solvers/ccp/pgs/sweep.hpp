@@ -16,8 +16,8 @@
 #include <array>
 #include <cstdint>
 
-#include "lanes.hpp"
 #include "scree/ccp/cone3.hpp"
+#include "scree/ccp/lanes.hpp"
 #include "scree/math/mat3.hpp"
 
 namespace scree::pgs {

@@ -1,9 +1,9 @@
-// Four contacts side by side: one lane each.
+// Four contacts side by side: one lane each. For the inner loops of CCP solvers.
 #pragma once
 
 #include <cmath>
 
-namespace scree::pgs {
+namespace scree {
 
 using Lanes = double __attribute__((vector_size(32)));
 
@@ -35,4 +35,4 @@ inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
   d = __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
 }
 
-}  // namespace scree::pgs
+}  // namespace scree
