@@ -7,8 +7,7 @@ from math import sqrt
 
 from checking import Check
 
-SHORT = {"simulation__end_time": 1.5, "source__feed__rate": 2000, "observer__collector__u_bins": 160,
-         "observer__vtk__interval": 1}
+SHORT = {"simulation__end_time": 1.5, "source__feed__rate": 2000, "observer__vtk__interval": 1}
 FAMILIES = ("spheres", "shavings")
 
 
