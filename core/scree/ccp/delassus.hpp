@@ -6,6 +6,8 @@
 // threads.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -50,7 +52,7 @@ class DelassusOperator {
   void for_chunks(std::size_t count, const Body& body) const {
     // A single chunk is not worth waking threads for.
     if (count > kGrain && executor_ != nullptr && executor_->threads() > 1) {
-      executor_->for_chunks(count, kGrain, body);
+      executor_->for_chunks(count, kGrain, std::cref(body));  // by reference: no copy of the captures on the heap
       return;
     }
     for (std::size_t first = 0; first < count; first += kGrain) body(first, std::min(first + kGrain, count));

@@ -5,12 +5,10 @@
 
 #include <vector>
 
-#include "colouring.hpp"
-#include "grouping.hpp"
 #include "scree/ccp/delassus.hpp"
+#include "scree/ccp/sweep/contact_sweep.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
-#include "sweep.hpp"
 
 namespace scree {
 
@@ -34,21 +32,14 @@ class Pgs final : public CcpSolver {
 
  private:
   bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
-  void prepare_bodies(const CcpProblem& problem);
-  void prepare_groups(const CcpProblem& problem, std::span<const double> gamma);
-  void sweep(const SolveContext& context);
+  void sweep(const Executor* executor);
   template <bool isotropic, bool compliant>
-  void sweep_groups(std::size_t first, std::size_t last);
+  void sweep_with(const Executor* executor);
   double residual(std::span<double> gamma);
 
   PgsOptions options_;
   DelassusOperator delassus_;
-  pgs::Colouring colouring_;
-  std::vector<pgs::Body> bodies_;
-  std::vector<pgs::Inertia> inertias_;  ///< empty when all bodies are isotropic
-  pgs::Grouping grouping_;
-  std::vector<pgs::Group> groups_;  ///< as in grouping_
-  std::vector<Lanes3> compliance_;  ///< per group; empty without compliance
+  ContactSweep sweep_;
   std::vector<Twist> w_;
   std::vector<double> partial_;
   std::vector<double> guess_;

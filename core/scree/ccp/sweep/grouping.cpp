@@ -1,8 +1,8 @@
-#include "grouping.hpp"
+#include "scree/ccp/sweep/grouping.hpp"
 
 #include <algorithm>
 
-namespace scree::pgs {
+namespace scree::sweep {
 
 namespace {
 constexpr std::size_t kQueue = 48;
@@ -43,4 +43,4 @@ void Grouping::build(const CcpProblem& problem, std::size_t chunk) {
   first.push_back(static_cast<std::uint32_t>(groups.size()));
 }
 
-}  // namespace scree::pgs
+}  // namespace scree::sweep

@@ -1,8 +1,8 @@
-#include "sweep.hpp"
+#include "scree/ccp/sweep/local_step.hpp"
 
 #include <algorithm>
 
-namespace scree::pgs {
+namespace scree::sweep {
 
 namespace {
 
@@ -45,4 +45,4 @@ LocalStep block_step(const Mat3& a, double friction, double omega) {
   return step_of(d.normal, d.tangent, friction, omega);
 }
 
-}  // namespace scree::pgs
+}  // namespace scree::sweep

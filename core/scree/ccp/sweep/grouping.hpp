@@ -8,7 +8,7 @@
 
 #include "scree/ccp/problem.hpp"
 
-namespace scree::pgs {
+namespace scree::sweep {
 
 inline constexpr std::uint32_t kNoContact = std::numeric_limits<std::uint32_t>::max();
 
@@ -23,4 +23,4 @@ struct Grouping {
   void build(const CcpProblem& problem, std::size_t chunk);
 };
 
-}  // namespace scree::pgs
+}  // namespace scree::sweep

@@ -1,6 +1,6 @@
-// Gauss-Seidel updates of contacts, four at a time: the inner loop of pgs. The
-// four share no movable body, so that doing them together is doing them one
-// after the other.
+// Gauss-Seidel updates of contacts, four at a time: the inner loop of every
+// sweep. The four share no movable body, so that doing them together is doing
+// them one after the other.
 //
 // Glossary: A = N_ii, the 3 x 3 block of a contact; d_n, d_t, the diagonal
 // stiffness that bounds it from above, diag(d_n, d_t, d_t) >= A; u, the contact
@@ -16,11 +16,9 @@
 #include <array>
 #include <cstdint>
 
-#include "scree/ccp/cone3.hpp"
 #include "scree/ccp/lanes.hpp"
-#include "scree/math/mat3.hpp"
 
-namespace scree::pgs {
+namespace scree::sweep {
 
 /// What a sweep reads and writes of a body: one cache line.
 struct alignas(64) Body {
@@ -33,18 +31,6 @@ struct alignas(64) Body {
 struct alignas(32) Inertia {
   Lanes column[3];
 };
-
-/// The local step of a contact.
-struct LocalStep {
-  double normal = 0.0;   ///< omega / d_n [kg]
-  double tangent = 0.0;  ///< omega / d_t [kg]
-  ConeWeights weights;   ///< of the projection in the norm (d_n, d_t)
-};
-
-/// omega / d for block `a` of N [1/kg] with one stiffness for all three rows, or
-/// one for the normal and one for the tangents.
-[[nodiscard]] LocalStep scalar_step(const Mat3& a, double friction, double omega);
-[[nodiscard]] LocalStep block_step(const Mat3& a, double friction, double omega);
 
 /// Four contacts. A lane without a contact has zero steps and the body that
 /// stands for nothing.
@@ -135,4 +121,4 @@ inline void update(Group& group, const Lanes3* compliance, Body* bodies, const I
   scatter(b, group.b, bodies);
 }
 
-}  // namespace scree::pgs
+}  // namespace scree::sweep

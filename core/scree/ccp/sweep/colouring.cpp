@@ -1,9 +1,9 @@
-#include "colouring.hpp"
+#include "scree/ccp/sweep/colouring.hpp"
 
 #include <algorithm>
 #include <bit>
 
-namespace scree::pgs {
+namespace scree::sweep {
 
 void Colouring::build(const CcpProblem& problem) {
   const std::size_t m = problem.blocks();
@@ -40,4 +40,4 @@ void Colouring::build(const CcpProblem& problem) {
   }
 }
 
-}  // namespace scree::pgs
+}  // namespace scree::sweep

@@ -12,7 +12,7 @@
 
 #include "scree/ccp/problem.hpp"
 
-namespace scree::pgs {
+namespace scree::sweep {
 
 /// Greedy colouring of chunks of contacts. Keeps its memory between calls.
 class Colouring {
@@ -38,4 +38,4 @@ class Colouring {
   std::vector<std::uint32_t> cursor_;
 };
 
-}  // namespace scree::pgs
+}  // namespace scree::sweep

@@ -1,0 +1,92 @@
+// ContactSweep: the contacts and bodies of a problem, laid out for sweeps that go contact by contact.
+//
+// Contacts lie in groups of four, one a vector lane (grouping.hpp); groups in chunks, which go in the order of the contacts, or
+// by colours, several threads at a time (colouring.hpp). What a sweep does with a group is the solver's: it loops over the
+// groups of a chunk and calls update() (update.hpp), or something of its own.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "scree/ccp/problem.hpp"
+#include "scree/ccp/sweep/colouring.hpp"
+#include "scree/ccp/sweep/grouping.hpp"
+#include "scree/ccp/sweep/local_step.hpp"
+#include "scree/ccp/sweep/update.hpp"
+#include "scree/ccp/twist.hpp"
+#include "scree/parallel/executor.hpp"
+
+namespace scree {
+
+/// Keeps its memory between problems. The order of updates is a matter of the settings, never of the threads.
+class ContactSweep {
+ public:
+  struct Settings {
+    bool coloured = false;     ///< chunks by colours, for several threads; else one chunk, in the order of the contacts
+    bool scalar_step = false;  ///< one step for the three rows of a contact
+    double relaxation = 1.0;   ///< omega [1]
+  };
+
+  void bind(const CcpProblem& problem, const Settings& settings);
+
+  /// Sets all impulses (3 m) [N s].
+  void set_impulses(std::span<const double> gamma);
+  void impulses(std::span<double> gamma) const;
+  /// Sets the velocities that the impulses cause, one Twist per body [m/s, rad/s].
+  void set_velocities(std::span<const Twist> w);
+  void velocities(std::span<Twist> w) const;
+
+  /// All bodies have an inverse inertia that is a multiple of the identity: inertias() is empty.
+  [[nodiscard]] bool isotropic() const { return inertias_.empty(); }
+  [[nodiscard]] bool compliant() const { return !compliance_.empty(); }
+  [[nodiscard]] std::span<sweep::Group> groups() { return groups_; }
+  /// Of group k; null for problems without compliance.
+  [[nodiscard]] const Lanes3* compliance(std::size_t k) const { return compliant() ? &compliance_[k] : nullptr; }
+  /// One more than the problem has: empty lanes refer to the last, which is immovable.
+  [[nodiscard]] std::span<sweep::Body> bodies() { return bodies_; }
+  [[nodiscard]] const sweep::Inertia* inertias() const { return inertias_.data(); }
+
+  [[nodiscard]] std::size_t chunks() const { return grouping_.first.size() - 1; }
+  /// Calls visit(chunk, first group, one past the last group) chunk by chunk in the order of a sweep, or `backward` in the
+  /// opposite one (the visitor then goes backwards through its groups). Chunks of one colour may run at the same time.
+  template <class Visit>
+  void for_chunks(bool backward, const Executor* executor, const Visit& visit) const {
+    const auto one = [&](std::size_t chunk) { visit(chunk, grouping_.first[chunk], grouping_.first[chunk + 1]); };
+    if (!coloured_) return one(0);
+    const std::vector<std::uint32_t>&order = colouring_.chunks(), &first = colouring_.first();
+    const std::size_t colours = first.size() - 1;
+    const auto left_over = [&] {  // chunks without a colour, one after the other
+      const std::size_t count = order.size() - first.back();
+      for (std::size_t k = 0; k < count; ++k) one(backward ? order[order.size() - 1 - k] : order[first.back() + k]);
+    };
+    if (backward) left_over();
+    for (std::size_t c = 0; c < colours; ++c) {
+      const std::size_t colour = backward ? colours - 1 - c : c;
+      const std::size_t begin = first[colour], count = first[colour + 1] - begin;
+      const auto several = [&](std::size_t from, std::size_t to) {
+        for (std::size_t k = from; k < to; ++k) one(order[begin + k]);
+      };
+      if (count == 1 || executor == nullptr || executor->threads() == 1) {
+        several(0, count);
+      } else {
+        executor->for_chunks(count, 1, std::cref(several));
+      }
+    }
+    if (!backward) left_over();
+  }
+
+ private:
+  void bind_bodies(const CcpProblem& problem);
+  void bind_groups(const CcpProblem& problem, const Settings& settings);
+
+  bool coloured_ = false;
+  sweep::Grouping grouping_;
+  sweep::Colouring colouring_;
+  std::vector<sweep::Body> bodies_;
+  std::vector<sweep::Inertia> inertias_;
+  std::vector<sweep::Group> groups_;
+  std::vector<Lanes3> compliance_;
+};
+
+}  // namespace scree

@@ -1,0 +1,118 @@
+// The pieces of sweeps: local steps, colours, and the layout in groups.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "scree/ccp/delassus.hpp"
+#include "scree/ccp/sweep/contact_sweep.hpp"
+#include "support/ccp_problems.hpp"
+
+namespace scree::test {
+
+// The step's stiffness must bound the block, or an update may raise the objective: x^T (omega / step - A) x >= 0.
+TEST(local_step, bounds_the_block) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const TestingProblem t = random_problem({.bodies = 6, .contacts = 12, .mass_decades = 2.0, .seed = seed});
+    std::mt19937_64 random{seed};
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < t.contacts.size(); ++i) {
+      const Mat3 a = diagonal_block(t.view(), i);
+      const sweep::LocalStep step = sweep::block_step(a, 0.5, 1.0);
+      for (int k = 0; k < 20; ++k) {
+        const Vec3 x{normal(random), normal(random), normal(random)};
+        const double bound = x.x * x.x / step.normal + (x.y * x.y + x.z * x.z) / step.tangent;
+        EXPECT_LE(dot(x, a * x), bound * (1.0 + 1e-12));
+      }
+    }
+  }
+}
+
+TEST(colouring, chunks_of_one_colour_share_no_movable_body) {
+  const TestingProblem t = random_problem({.bodies = 4000, .immovable = 2, .contacts = 6000, .seed = 8});
+  sweep::Colouring colouring;
+  colouring.build(t.view());
+  std::vector<int> seen(t.contacts.size(), 0);
+  std::vector<std::int64_t> owner(t.inverse_mass.size());
+  for (std::size_t c = 0; c + 1 < colouring.first().size(); ++c) {
+    std::fill(owner.begin(), owner.end(), -1);
+    for (std::size_t k = colouring.first()[c]; k < colouring.first()[c + 1]; ++k) {
+      const std::size_t begin = colouring.chunks()[k] * sweep::Colouring::kChunkLength;
+      for (std::size_t i = begin; i < std::min(begin + sweep::Colouring::kChunkLength, t.contacts.size()); ++i) {
+        ++seen[i];
+        for (const std::uint32_t body : {t.contacts[i].a, t.contacts[i].b}) {
+          if (t.inverse_mass[body] == 0.0) continue;
+          EXPECT_TRUE(owner[body] < 0 || owner[body] == static_cast<std::int64_t>(k));
+          owner[body] = static_cast<std::int64_t>(k);
+        }
+      }
+    }
+  }
+  for (std::size_t k = colouring.first().back(); k < colouring.chunks().size(); ++k) {
+    const std::size_t begin = colouring.chunks()[k] * sweep::Colouring::kChunkLength;
+    for (std::size_t i = begin; i < std::min(begin + sweep::Colouring::kChunkLength, t.contacts.size()); ++i) ++seen[i];
+  }
+  for (const int times : seen) EXPECT_EQ(times, 1);
+}
+
+// A sweep backwards undoes nothing but goes through the same groups: each exactly once, in the opposite order of chunks that
+// share bodies. One thread, so that the order can be recorded.
+TEST(contact_sweep, backward_is_the_opposite_order_and_visits_every_group_once) {
+  const TestingProblem t = random_problem({.bodies = 900, .immovable = 2, .contacts = 2500, .seed = 3});
+  for (const bool coloured : {false, true}) {
+    ContactSweep sweep;
+    sweep.bind(t.view(), {.coloured = coloured});
+    std::vector<std::size_t> there, back;
+    const auto record = [](std::vector<std::size_t>& order) {
+      return [&order](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) order.push_back(k);
+      };
+    };
+    sweep.for_chunks(false, nullptr, record(there));
+    sweep.for_chunks(true, nullptr, record(back));
+    ASSERT_EQ(there.size(), sweep.groups().size());
+    std::vector<char> seen(there.size(), 0);
+    for (const std::size_t k : there) seen[k] = 1;
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
+    ASSERT_EQ(back.size(), there.size());
+    // Groups that share a movable body: whichever is first on the way there is second on the way back, chunk by chunk.
+    std::vector<std::size_t> position(there.size());
+    for (std::size_t k = 0; k < back.size(); ++k) position[back[k]] = k;
+    const auto chunk_of = [&](std::size_t k) {
+      std::size_t found = 0;
+      sweep.for_chunks(false, nullptr, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+        if (k >= first && k < last) found = chunk;
+      });
+      return found;
+    };
+    const auto share = [&](const sweep::Group& x, const sweep::Group& y) {
+      for (const std::uint32_t i : {x.a[0], x.b[0]}) {
+        if (i < t.inverse_mass.size() && t.inverse_mass[i] > 0.0 && (i == y.a[0] || i == y.b[0])) return true;
+      }
+      return false;
+    };
+    for (std::size_t k = 0; k + 1 < there.size(); k += 37) {
+      for (std::size_t l = k + 1; l < there.size(); l += 41) {
+        if (!share(sweep.groups()[there[k]], sweep.groups()[there[l]])) continue;
+        if (chunk_of(there[k]) == chunk_of(there[l])) continue;
+        EXPECT_GT(position[there[k]], position[there[l]]);
+      }
+    }
+  }
+}
+
+TEST(contact_sweep, impulses_and_velocities_come_back_as_they_were_set) {
+  const TestingProblem t = random_problem({.bodies = 40, .contacts = 91, .seed = 5});
+  ContactSweep sweep;
+  sweep.bind(t.view(), {});
+  std::vector<double> gamma(t.view().rows()), same(gamma.size());
+  for (std::size_t k = 0; k < gamma.size(); ++k) gamma[k] = 0.25 * static_cast<double>(k);
+  std::vector<Twist> w(t.inverse_mass.size(), Twist{{1, 2, 3}, {4, 5, 6}}), same_w(w.size());
+  sweep.set_impulses(gamma);
+  sweep.set_velocities(w);
+  sweep.impulses(same);
+  sweep.velocities(same_w);
+  EXPECT_EQ(gamma, same);
+  EXPECT_EQ(w, same_w);
+}
+
+}  // namespace scree::test
