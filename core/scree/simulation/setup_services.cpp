@@ -1,5 +1,7 @@
 #include "scree/simulation/setup_services.hpp"
 
+#include <algorithm>
+
 #include "scree/config/suggest.hpp"
 
 namespace scree {
@@ -15,6 +17,11 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
                                 const std::vector<std::string>& known) {
   throw Error{ErrorKind::usage, part.label() + " asks for the " + std::string{what} + " '" + std::string{name} +
                                     "', but the scene has " + list_of(known) + suggestion(name, known)};
+}
+
+/// True for parts that write a column while the simulation runs, so that bodies need not bring a value.
+bool is_running_part(const std::string& writer) {
+  return writer.starts_with(ForceField::kKind) || writer.starts_with(Observer::kKind);
 }
 
 }  // namespace
@@ -49,13 +56,32 @@ void SetupServices::check_attribute_units() const {
   for (const SceneBody& body : context_.model.bodies) check(body.options);
 }
 
-void SetupServices::check_attributes() const {
+void SetupServices::check_attributes() {
   const Attributes& columns = context_.bodies.attributes();
-  for (const Reader& reader : readers_) {
-    if (!columns.info(columns.id(reader.attribute)).writers.empty()) continue;
-    throw Error{ErrorKind::usage, reader.part + " reads the body attribute '" + reader.attribute + "' (" + reader.help +
-                                      "), which nothing in the scene provides; set it in a material's, a body's or a "
-                                      "source's `attributes`, or add the part that writes it"};
+  for (std::size_t r = 0; r < readers_.size(); ++r) {
+    const Reader& reader = readers_[r];
+    const AttributeId id = columns.id(reader.attribute);
+    const std::vector<std::string>& writers = columns.info(id).writers;
+    if (writers.empty()) {
+      throw Error{ErrorKind::usage, reader.part + " reads the body attribute '" + reader.attribute + "' (" +
+                                        reader.help +
+                                        "), which nothing in the scene provides; set it in a material's, a body's or a "
+                                        "source's `attributes`, or add the part that writes it"};
+    }
+    if (std::none_of(writers.begin(), writers.end(), is_running_part)) given_.emplace_back(id, r);
+  }
+}
+
+void SetupServices::check_body(const NewBody& body, std::span<const std::pair<AttributeId, double>> values) const {
+  if (body.motion != Motion::dynamic) return;
+  for (const auto& [id, reader] : given_) {
+    const auto is_it = [column = id](const std::pair<AttributeId, double>& value) { return value.first == column; };
+    if (std::any_of(values.begin(), values.end(), is_it)) continue;
+    throw Error{ErrorKind::usage, "a body of material '" + context_.model.materials[body.material].name +
+                                      "' has no value for the attribute '" + readers_[reader].attribute + "', which " +
+                                      readers_[reader].part +
+                                      " reads; set it in the `attributes` of that material, of the body, or of every "
+                                      "family of its source"};
   }
 }
 

@@ -1,7 +1,9 @@
 // SetupServices: what parts ask for at setup, answered from the scene.
 #pragma once
 
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scree/interfaces/scene_services.hpp"
@@ -31,7 +33,10 @@ class SetupServices final : public SceneServices {
   /// Lets materials and scene bodies provide the columns that they set.
   void provide_from_scene();
   /// Refuses a simulation in which a part reads a column that nothing provides. @throws Error (usage).
-  void check_attributes() const;
+  void check_attributes();
+  /// Refuses a body that lacks a column which a part reads and no part writes. `values` are those that the body and its
+  /// material give. @throws Error (usage) naming the body, the column and its reader.
+  void check_body(const NewBody& body, std::span<const std::pair<AttributeId, double>> values) const;
 
   [[nodiscard]] std::string part_name() const override { return part_->name; }
   [[nodiscard]] const ElectricField& electric_field(std::string_view name) const override;
@@ -61,6 +66,7 @@ class SetupServices final : public SceneServices {
   SetupContext context_;
   const PartInfo* part_ = nullptr;
   std::vector<Reader> readers_;
+  std::vector<std::pair<AttributeId, std::size_t>> given_;  // columns that bodies have to bring, and who reads them
 };
 
 }  // namespace scree

@@ -68,6 +68,7 @@ void Simulation::State::add(NewBody body) {
     values.emplace_back(bodies.attributes().id(name), value);
   }
   values.insert(values.end(), body.attributes.begin(), body.attributes.end());
+  services->check_body(body, values);
   body.attributes = std::move(values);
   if (body.motion == Motion::dynamic) feed.fed[body.material].add(body.mass);
   bodies.add(body);

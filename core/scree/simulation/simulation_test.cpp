@@ -193,6 +193,17 @@ TEST(Simulation, attributes_have_the_dimension_that_their_reader_states) {
       << refusal(charged("'2 mm'"));
 }
 
+// A column that a part reads and no part writes has to come with every body: none gets a silent zero.
+TEST(Simulation, a_body_without_an_attribute_that_is_read_is_refused) {
+  const std::string reader = "[[force_field]]\ntype = 'weigher'\n";
+  const std::string body = "[[body]]\nshape = 'ball'\nmaterial = 'stone'\nmotion = 'dynamic'\n";
+  EXPECT_NE(refusal(scene(reader)).find("which nothing in the scene provides"), std::string::npos);
+  EXPECT_EQ(refusal(scene(reader + body + "attributes = { ballast = 2 }\n")), "");
+  const std::string other = "[[body]]\nshape = 'ball'\nmaterial = 'stone'\nmotion = 'dynamic'\nposition = [5, 0, 0]\n";
+  const std::string text = refusal(scene(reader + body + "attributes = { ballast = 2 }\n" + other));
+  EXPECT_NE(text.find("material 'stone' has no value for the attribute 'ballast'"), std::string::npos) << text;
+}
+
 TEST(Simulation, the_resolved_scene_shows_defaults_and_pairs) {
   const Catalog catalog;
   const SceneDocument document = SceneDocument::parse(scene(kFedScene));

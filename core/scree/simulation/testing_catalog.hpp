@@ -98,6 +98,13 @@ class Charged final : public ForceField {
   void add_forces(const BodyView&, double, WrenchView) const override {}
 };
 
+/// Reads a column that bodies have to bring.
+class Weigher final : public ForceField {
+ public:
+  void setup(SceneServices& services) override { services.require_attribute("ballast", "kg", "what the body carries"); }
+  void add_forces(const BodyView&, double, WrenchView) const override {}
+};
+
 /// One body a step at a random height; its counter is its state.
 class Drip final : public Source {
  public:
@@ -139,6 +146,7 @@ class Catalog final : public PluginCatalog {
     list_.add<NarrowPhase, Spheres>("spheres", "");
     list_.add<ForceField, Push>("push", "", Push::parameters());
     list_.add<ForceField, Charged>("charged", "");
+    list_.add<ForceField, Weigher>("weigher", "");
     list_.add<Source, Drip>("drip", "");
     list_.add<Sink, Gate>("gate", "", Gate::parameters());
   }
