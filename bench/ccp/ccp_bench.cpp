@@ -110,8 +110,11 @@ void register_all() {
     const char* toml;
     bool threaded;
   };
-  static constexpr Solver kSolvers[] = {
-      {"pgs", "pgs", "", false}, {"pgs_coloured", "pgs", "order = \"coloured\"", true}, {"apgd", "apgd", "", true}};
+  static constexpr Solver kSolvers[] = {{"pgs", "pgs", "", false},
+                                        {"pgs_coloured", "pgs", "order = \"coloured\"", true},
+                                        {"apgd", "apgd", "", true},
+                                        {"asgs", "asgs", "", false},
+                                        {"asgs_coloured", "asgs", "order = \"coloured\"", true}};
   for (const Solver& s : kSolvers) {
     for (int threads = 1; threads <= (s.threaded ? 2 : 1); ++threads) {
       benchmark::RegisterBenchmark(fmt::format("iterations/{}/threads:{}", s.name, threads).c_str(), &iterations,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "conformance/ccp_solver_case.hpp"
+#include "support/allocation_count.hpp"
 
 namespace scree::test {
 
@@ -56,6 +57,45 @@ TEST_P(CcpSolverConformance, wedge_with_friction_meets_its_optimality_conditions
   const Solved out = solve(*solver_, t.view(), 1e-11);
   EXPECT_EQ(out.summary.status, SolveStatus::converged);
   expect_solution(t.view(), out.gamma, 1e-11);
+}
+
+// A column of spheres of masses m, 2 m, ... from the floor up, all falling onto the floor with v: everything stops, and
+// contact i passes on the momentum of all that is above it.
+TEST_P(CcpSolverConformance, column_passes_the_momentum_above_each_contact) {
+  constexpr int kSpheres = 6;
+  const double m = 0.2, v = 0.3;
+  TestingProblem t;
+  std::uint32_t below = t.add_immovable();
+  for (int k = 0; k < kSpheres; ++k) {
+    const std::uint32_t sphere = t.add_body(m * (k + 1), {1e-3, 1e-3, 1e-3});
+    t.add_contact(below, sphere, {0, 0, 1}, k == 0 ? Vec3{} : Vec3{0, 0, 0.1}, {0, 0, -0.1}, 0.4,
+                  {k == 0 ? -v : 0.0, 0, 0});
+    below = sphere;
+  }
+  const Solved s = solve(*solver_, t.view(), 1e-10);
+  EXPECT_EQ(s.summary.status, SolveStatus::converged);
+  for (int i = 0; i < kSpheres; ++i) {
+    double above = 0.0;
+    for (int k = i; k < kSpheres; ++k) above += m * (k + 1) * v;
+    // A velocity error of the tolerance in each of the spheres above, summed up, with room for the chain's conditioning.
+    EXPECT_NEAR(s.gamma[static_cast<std::size_t>(3 * i)], above, 1e-7) << "contact " << i;
+  }
+}
+
+// A table with four legs: how they share the load is not determined, its sum and its moments are.
+TEST_P(CcpSolverConformance, four_legs_carry_the_weight_and_no_moment) {
+  const double m = 3.0, v = 0.02, a = 0.4, b = 0.25;
+  TestingProblem t;
+  const auto floor = t.add_immovable(), table = t.add_body(m, {0.2, 0.3, 0.4});
+  for (const Vec3& leg : {Vec3{a, b, -0.5}, Vec3{a, -b, -0.5}, Vec3{-a, b, -0.5}, Vec3{-a, -b, -0.5}}) {
+    t.add_contact(floor, table, {0, 0, 1}, leg, leg, 0.6, {-v, 0, 0});
+  }
+  const Solved s = solve(*solver_, t.view(), 1e-11);
+  EXPECT_EQ(s.summary.status, SolveStatus::converged);
+  expect_solution(t.view(), s.gamma, 1e-11);
+  EXPECT_NEAR(s.gamma[0] + s.gamma[3] + s.gamma[6] + s.gamma[9], m * v, 1e-9);
+  EXPECT_NEAR(s.gamma[0] + s.gamma[3], s.gamma[6] + s.gamma[9], 1e-9);
+  EXPECT_NEAR(s.gamma[0] + s.gamma[6], s.gamma[3] + s.gamma[9], 1e-9);
 }
 
 TEST_P(CcpSolverConformance, random_feasible_problems_converge_to_their_optimality_conditions) {
@@ -120,6 +160,19 @@ TEST_P(CcpSolverConformance, two_threads_give_the_bits_of_one) {
   const Solved b = solve(*GetParam().make(), t.view(), 1e-9, 20, &two);
   EXPECT_EQ(a.gamma, b.gamma);
   EXPECT_EQ(a.summary.residual, b.summary.residual);
+}
+
+// Once the workspace has its size, 20 iterations ask for memory as often as 200 do: never inside the loop.
+TEST_P(CcpSolverConformance, iterations_allocate_nothing) {
+  const TestingProblem t = random_problem({.bodies = 3000, .immovable = 3, .contacts = 9000, .seed = 9});
+  const Executor one{1};
+  const auto allocations = [&](int limit) {
+    const std::uint64_t before = allocation_count();
+    solve(*solver_, t.view(), 0.0, limit, &one);
+    return allocation_count() - before;
+  };
+  EXPECT_GT(allocations(200), 0U);  // the counter counts: this solve makes the workspace
+  EXPECT_EQ(allocations(200), allocations(20));
 }
 
 TEST_P(CcpSolverConformance, workspace_of_another_problem_does_not_show) {

@@ -1,0 +1,263 @@
+#include "asgs.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "scree/base/require.hpp"
+#include "scree/ccp/guess.hpp"
+#include "scree/ccp/judge.hpp"
+#include "scree/interfaces/plugin_library.hpp"
+
+namespace scree {
+namespace {
+
+/// Objectives closer than this share of their size are equal: they are sums of many terms of both signs.
+constexpr double kRounding = 1e-13;
+
+double sum_of(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+
+/// The inverse of a symmetric positive semi-definite matrix; of a singular one, an inverse on its range.
+Mat3 inertia_of(Mat3 j) {
+  const double trace = j.row0.x + j.row1.y + j.row2.z;
+  if (!(trace > 0.0)) return {};
+  const auto determinant = [&] { return dot(j.row0, cross(j.row1, j.row2)); };
+  if (determinant() < 1e-24 * trace * trace * trace) {
+    const double little = 1e-12 * trace;
+    j = j + Mat3::diagonal({little, little, little});
+  }
+  const double scale = 1.0 / determinant();
+  return {scale * cross(j.row1, j.row2), scale * cross(j.row2, j.row0), scale * cross(j.row0, j.row1)};
+}
+
+}  // namespace
+
+Asgs::Asgs(const Options& options)
+    : Asgs{AsgsOptions{.accelerated = options.boolean("accelerated"),
+                       .restart = options.boolean("restart"),
+                       .coloured = options.text("order") == "coloured",
+                       .check_interval = static_cast<int>(options.integer("check_interval"))}} {}
+
+std::vector<Parameter> Asgs::parameters() {
+  return {
+      Parameter::boolean("accelerated", "Nesterov's momentum between the sweeps; false: plain symmetric Gauss-Seidel")
+          .by_default(true),
+      Parameter::boolean("restart", "drop the momentum when it points against the step").by_default(true),
+      Parameter::choice("order", {"serial", "coloured"},
+                        "order of the contacts in a sweep; coloured lets several threads work, with another result")
+          .by_default("serial"),
+      Parameter::integer("check_interval", "sweeps between two computations of the residual")
+          .by_default(10)
+          .at_least(1.0),
+  };
+}
+
+bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
+  if (!project_guess(problem, gamma)) return false;
+  delassus_.bind(problem, context.executor);
+  w_.resize(problem.bodies());
+  delassus_.body_velocities(gamma, w_);
+  sweep_.bind(problem, {.coloured = options_.coloured});
+  sweep_.set_impulses(gamma);
+  sweep_.set_velocities(w_);
+  history_.assign(sweep_.groups().size(), History{});
+  for (std::size_t k = 0; k < history_.size(); ++k) history_[k].x_old = sweep_.groups()[k].g;
+  old_.assign(sweep_.bodies().begin(), sweep_.bodies().end());
+  sums_.assign(sweep_.chunks(), Sums{});
+  x_.assign(gamma.begin(), gamma.end());
+  x_best_ = x_;
+  prepare_inertias(problem);
+  undone_ = 0;
+  against_ = 0.0;
+  objective_ = delassus_.objective(gamma);
+  return std::isfinite(objective_);
+}
+
+void Asgs::prepare_inertias(const CcpProblem& problem) {
+  inertia_.resize(sweep_.isotropic() ? 0 : problem.bodies());
+  for (std::size_t k = 0; k < inertia_.size(); ++k) inertia_[k] = inertia_of(problem.inverse_inertia[k]);
+}
+
+// Bodies go from x to y; x becomes x_old.
+void Asgs::extrapolate_bodies(double beta) {
+  const std::span<sweep::Body> bodies = sweep_.bodies();
+  delassus_.for_chunks(bodies.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      // Lanes 3 are constants of the body: their differences are zero.
+      const sweep::Body now = bodies[k];
+      bodies[k].linear = now.linear + beta * (now.linear - old_[k].linear);
+      bodies[k].angular = now.angular + beta * (now.angular - old_[k].angular);
+      old_[k] = now;
+    }
+  });
+}
+
+template <bool isotropic, bool compliant>
+void Asgs::forward(double beta, const Executor* executor) {
+  const std::span<sweep::Group> groups = sweep_.groups();
+  sweep::Body* const bodies = sweep_.bodies().data();
+  sweep_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
+    const Lanes momentum = Lanes{} + beta;
+    for (std::size_t k = first; k < last; ++k) {
+      sweep::Group& group = groups[k];
+      History& history = history_[k];
+      const Lanes3 x = group.g;
+      group.g = history.y = x + momentum * (x - history.x_old);
+      history.x_old = x;
+      sweep::update<isotropic, compliant>(group, sweep_.compliance(k), bodies, sweep_.inertias());
+    }
+  });
+}
+
+template <bool isotropic, bool compliant>
+void Asgs::backward(const Executor* executor) {
+  const std::span<sweep::Group> groups = sweep_.groups();
+  sweep::Body* const bodies = sweep_.bodies().data();
+  sweep_.for_chunks(true, executor, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    Lanes against{}, linear{};
+    const Lanes zero{};
+    for (std::size_t k = last; k-- > first;) {
+      sweep::Group& group = groups[k];
+      sweep::update<isotropic, compliant>(group, sweep_.compliance(k), bodies, sweep_.inertias());
+      const Lanes3 back = history_[k].y - group.g, step = group.g - history_[k].x_old;
+      const Lanes along = back.x * step.x / group.step_n;
+      const Lanes across = (back.y * step.y + back.z * step.z) / group.step_t;
+      against += group.step_n > zero ? along + across : zero;  // lanes without a contact have no metric
+      linear += dot(group.r, group.g);
+      if constexpr (compliant) {
+        const Lanes3& e = *sweep_.compliance(k);
+        linear += 0.5 * (e.x * group.g.x * group.g.x + e.y * group.g.y * group.g.y + e.z * group.g.z * group.g.z);
+      }
+    }
+    sums_[chunk] = {sum_of(against), sum_of(linear)};
+  });
+}
+
+template <bool isotropic, bool compliant>
+void Asgs::sweeps(double beta, bool both, const Executor* executor) {
+  forward<isotropic, compliant>(beta, executor);
+  if (both) backward<isotropic, compliant>(executor);
+}
+
+// From x to the next iterate. The objective is known after both sweeps only.
+void Asgs::advance(double beta, bool both, const Executor* executor) {
+  const bool compliant = sweep_.compliant();
+  extrapolate_bodies(beta);
+  if (sweep_.isotropic()) {
+    compliant ? sweeps<true, true>(beta, both, executor) : sweeps<true, false>(beta, both, executor);
+  } else {
+    compliant ? sweeps<false, true>(beta, both, executor) : sweeps<false, false>(beta, both, executor);
+  }
+  if (!both) return;
+  Sums total;
+  for (const Sums& s : sums_) total.against += s.against, total.linear += s.linear;
+  against_ = total.against;
+  objective_ = kinetic_energy() + total.linear;
+}
+
+// Back to where the last pair came from.
+void Asgs::undo() {
+  const std::span<sweep::Group> groups = sweep_.groups();
+  for (std::size_t k = 0; k < groups.size(); ++k) groups[k].g = history_[k].x_old;
+  std::copy(old_.begin(), old_.end(), sweep_.bodies().begin());
+  ++undone_;
+}
+
+// 1/2 w^T M w of the bodies' velocities.
+double Asgs::kinetic_energy() {
+  const std::span<const sweep::Body> bodies = sweep_.bodies();
+  const std::size_t n = bodies.size() - 1;
+  partial_.assign(Executor::chunk_count(n, DelassusOperator::kGrain), 0.0);
+  delassus_.for_chunks(n, [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t k = first; k < last; ++k) {
+      const Lanes &v = bodies[k].linear, &w = bodies[k].angular;
+      if (v[3] > 0.0) sum += (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / v[3];
+      const Vec3 angular{w[0], w[1], w[2]};
+      if (!inertia_.empty()) {
+        sum += dot(angular, inertia_[k] * angular);
+      } else if (w[3] > 0.0) {
+        sum += squared_norm(angular) / w[3];
+      }
+    }
+    partial_[first / DelassusOperator::kGrain] = 0.5 * sum;
+  });
+  double total = 0.0;
+  for (const double p : partial_) total += p;
+  return total;
+}
+
+// The velocities were summed up update by update: the residual is that of the impulses alone.
+double Asgs::residual(std::span<double> gamma) {
+  sweep_.impulses(gamma);
+  delassus_.body_velocities(gamma, w_);
+  return ccp_residual(delassus_, gamma, w_, partial_);
+}
+
+void Asgs::look(SolveSummary& summary) {
+  const double now = residual(x_);
+  if (now < summary.residual) {
+    summary.residual = now;
+    std::copy(x_.begin(), x_.end(), x_best_.begin());
+  }
+}
+
+SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "asgs: gamma needs three numbers a contact");
+  if (problem.blocks() == 0) return {};
+  if (!prepare(problem, context, gamma)) {
+    return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
+  }
+  const double guess_residual = ccp_residual(delassus_, gamma, w_, partial_);
+  // Any sweep beats the guess, whose residual may be small by accident far away.
+  SolveSummary summary{SolveStatus::iteration_limit, 0, std::numeric_limits<double>::infinity()};
+  if (guess_residual <= context.tolerance) summary.residual = guess_residual;
+  double theta = 1.0, beta = 0.0;
+  int next_look = 2;
+  while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
+    const double before = objective_;
+    const bool both = summary.iterations + 2 <= context.max_iterations;
+    if (!both) beta = 0.0;  // a single sweep is no step that momentum could follow
+    advance(beta, both, context.executor);
+    const int first = summary.iterations + 1;
+    summary.iterations += both ? 2 : 1;
+    const bool uphill = both && !(objective_ <= before + kRounding * std::abs(before));
+    if (uphill && beta > 0.0) {
+      undo();
+      objective_ = before;
+    }
+    const bool looking = summary.iterations >= next_look || summary.iterations == context.max_iterations;
+    if (looking) {
+      look(summary);
+      next_look = summary.iterations < options_.check_interval ? 2 * summary.iterations
+                                                               : summary.iterations + options_.check_interval;
+    }
+    if (context.on_iteration) {
+      if (both) context.on_iteration({first, -1.0});
+      context.on_iteration({summary.iterations, looking ? summary.residual : -1.0});
+    }
+    const double theta_next = 0.5 * theta * (std::sqrt(theta * theta + 4.0) - theta);
+    beta = options_.accelerated ? theta * (1.0 - theta) / (theta * theta + theta_next) : 0.0;
+    theta = theta_next;
+    if (uphill || (options_.restart && against_ > 0.0)) theta = 1.0, beta = 0.0;
+  }
+  std::copy(x_best_.begin(), x_best_.end(), gamma.begin());
+  if (std::isinf(summary.residual)) summary.residual = guess_residual;  // no sweep was made
+  if (!std::isfinite(summary.residual)) summary.status = SolveStatus::numerical_failure;
+  if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
+  return summary;
+}
+
+}  // namespace scree
+
+namespace {
+
+void list(scree::PluginList& plugins) {
+  plugins.add<scree::CcpSolver, scree::Asgs>(
+      "asgs", "Accelerated symmetric Gauss-Seidel: fewest passes over the contacts on deep piles.",
+      scree::Asgs::parameters());
+}
+
+}  // namespace
+
+extern "C" SCREE_EXPORT const scree::PluginLibrary scree_plugin_library{
+    scree::describe_library("asgs", "1.0.0", &list)};

@@ -1,0 +1,94 @@
+// Accelerated symmetric Gauss-Seidel for cone complementarity problems: a
+// Nesterov iteration whose step is a projected Gauss-Seidel sweep forwards and
+// one backwards.
+//
+// For a quadratic, forward + backward Gauss-Seidel is one proximal gradient step
+// in the metric N + L D^-1 L^T (D, L: diagonal and lower triangle of N by
+// blocks), which majorises N and is far closer to it than a diagonal (Li, Sun,
+// Toh 2016, Math. Program. 155:333, theorem 1). So it may be accelerated as any
+// such step (Nesterov 1983; restart: O'Donoghue & Candes 2015). The theorem
+// allows one block that is not smooth, and here every block has a cone: the
+// iteration is guarded. No accepted pair of sweeps ends above the objective of
+// the one before; where the accelerated pair would, it is undone and a plain one
+// follows, whose every update goes downhill.
+//
+// Glossary: x, the iterate; y = x + beta (x - x_old), where a pair starts; w = M^-1
+// D x, the body velocities, which obey the same linear combination, so that
+// starting from y needs no product; d, the diagonal metric of the local steps.
+//
+// The objective is 1/2 w^T M w + r^T x + 1/2 x^T E x: a sum over bodies, and one
+// over contacts that the backward sweep takes along.
+#pragma once
+
+#include <vector>
+
+#include "scree/ccp/delassus.hpp"
+#include "scree/ccp/sweep/contact_sweep.hpp"
+#include "scree/config/options.hpp"
+#include "scree/interfaces/ccp_solver.hpp"
+
+namespace scree {
+
+/// What a scene can say about asgs.
+struct AsgsOptions {
+  bool accelerated = true;  ///< false: plain symmetric Gauss-Seidel
+  bool restart = true;      ///< drop the momentum when it points against the step
+  bool coloured = false;    ///< order by colours, for several threads
+  int check_interval = 10;  ///< sweeps between two computations of the residual
+};
+
+/// Returns the iterate with the least residual seen. No allocation once the
+/// workspace has its size.
+class Asgs final : public CcpSolver {
+ public:
+  explicit Asgs(const AsgsOptions& options) : options_{options} {}
+  explicit Asgs(const Options& options);
+  static std::vector<Parameter> parameters();
+
+  SolveSummary solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) override;
+
+  /// Pairs of the last solve that were undone because they ended uphill.
+  [[nodiscard]] int undone() const { return undone_; }
+
+ private:
+  /// Of the contacts of one group [N s].
+  struct History {
+    Lanes3 x_old, y;
+  };
+  /// Sums over the contacts.
+  struct Sums {
+    double against = 0.0;  ///< (y - x)^T d (x - x_old) [J]
+    double linear = 0.0;   ///< r^T x + 1/2 x^T E x [J]
+  };
+
+  bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
+  void prepare_inertias(const CcpProblem& problem);
+  void extrapolate_bodies(double beta);
+  template <bool isotropic, bool compliant>
+  void forward(double beta, const Executor* executor);
+  template <bool isotropic, bool compliant>
+  void backward(const Executor* executor);
+  template <bool isotropic, bool compliant>
+  void sweeps(double beta, bool both, const Executor* executor);
+  void advance(double beta, bool both, const Executor* executor);
+  void undo();
+  double kinetic_energy();
+  double residual(std::span<double> gamma);
+  void look(SolveSummary& summary);
+
+  AsgsOptions options_;
+  DelassusOperator delassus_;
+  ContactSweep sweep_;
+  std::vector<History> history_;  ///< per group
+  std::vector<sweep::Body> old_;  ///< bodies as x_old has them
+  std::vector<Mat3> inertia_;     ///< per body [kg m2], world; empty when all are isotropic
+  std::vector<Sums> sums_;        ///< per chunk of the sweep
+  std::vector<double> partial_;
+  std::vector<double> x_, x_best_;  ///< impulses [N s]
+  std::vector<Twist> w_;
+  double objective_ = 0.0;  ///< of the groups' impulses [J]
+  double against_ = 0.0;    ///< sum of the last pair [J]
+  int undone_ = 0;
+};
+
+}  // namespace scree
