@@ -48,6 +48,13 @@ TEST_P(CcpSolverConformance, wedge_without_friction_shares_the_weight) {
   EXPECT_NEAR(out.gamma[3], m * v * s, 1e-11);
 }
 
+// Without friction and without any tangential velocity: no impulse pulls.
+TEST_P(CcpSolverConformance, sphere_that_leaves_the_floor_straight_is_not_held) {
+  const Solved s = solve(*solver_, sphere_on_floor(0.3, 0.1, 0.0, {1.0, 0.0, 0.0}).view(), 1e-12);
+  EXPECT_EQ(s.summary.status, SolveStatus::converged);
+  EXPECT_EQ(s.gamma[0], 0.0);
+}
+
 TEST_P(CcpSolverConformance, wedge_with_friction_meets_its_optimality_conditions) {
   const double s = std::sqrt(0.5);
   TestingProblem t;

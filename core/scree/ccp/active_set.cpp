@@ -2,68 +2,98 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "scree/base/require.hpp"
+#include "scree/ccp/cone3.hpp"
+#include "scree/ccp/judge.hpp"
 
 namespace scree {
 namespace {
 
 /// Above this share of active contacts a problem is solved as it is: putting the rest aside costs more than it saves.
 constexpr double kWorthwhile = 0.7;
-/// Share of the work left that a round may take, so that contacts found missing are solved for as well, and its least length.
+/// Share of the work left that a round may take, so that contacts found missing are solved for as well; the share after a
+/// round that found none; and the least length of a round [passes], since to begin one costs some passes.
 constexpr double kRoundShare = 0.3;
+constexpr double kSettledShare = 0.8;
 constexpr double kShortestRound = 10.0;
 
-/// How far the velocity u [m/s] of a contact without impulse is from the dual cone: below zero it opens by itself. The dual
-/// cone of the relaxed problem asks for u_n >= mu |u_t|, not just for a gap that does not close.
-double shortage(const CcpContact& contact, const Vec3& u) { return contact.friction * std::hypot(u.y, u.z) - u.x; }
+/// What the judge would say of a contact without impulse [m/s], which moves with u: its distance from the dual cone. Below zero
+/// it opens by itself. The dual cone of the relaxed problem asks for u_n >= mu |u_t|, not just for a gap that does not close.
+double shortage(const CcpContact& contact, const Vec3& u) {
+  const double mu = contact.friction;
+  return (mu * std::hypot(u.y, u.z) - u.x) / std::sqrt(1.0 + mu * mu);
+}
+
+/// Length of a round when the work left suffices for `left` passes over the part.
+int round_length(double left, bool settled) {
+  const double share = std::max(kShortestRound, (settled ? kSettledShare : kRoundShare) * left);
+  // What would be left for the last round is not worth a beginning of its own.
+  const double length = left - share < kShortestRound ? left : share;
+  return static_cast<int>(std::min(length, static_cast<double>(std::numeric_limits<int>::max())));
+}
+
+void project_guess(const CcpProblem& problem, std::span<double> gamma) {
+  for (std::size_t i = 0; i < problem.blocks(); ++i) {
+    const Vec3 g = load_block(gamma, i);
+    store_block(gamma, i, is_finite(g) ? project_cone3(g, problem.contacts[i].friction) : Vec3{});
+  }
+}
 
 }  // namespace
 
-std::size_t ActiveSetSolve::mark_guess(const CcpProblem& problem, const SolveContext& context,
-                                       std::span<const double> gamma) {
-  delassus_.bind(problem, context.executor);
-  w_.resize(problem.bodies());
-  u_.resize(problem.rows());
-  delassus_.body_velocities(gamma, w_);
-  delassus_.contact_velocities(w_, gamma, u_);
-  active_.resize(problem.blocks());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    const Vec3 u = load_block(u_, i) + load_block(problem.r, i);
-    active_[i] = static_cast<char>(gamma[3 * i] > 0.0 || shortage(problem.contacts[i], u) >= 0.0);
-    count += static_cast<std::size_t>(active_[i]);
-  }
-  return count;
-}
-
 std::size_t ActiveSetSolve::add_violated(std::span<const double> gamma, double tolerance) {
+  const CcpProblem& problem = delassus_.problem();
   delassus_.body_velocities(gamma, w_);
-  delassus_.contact_velocities(w_, gamma, u_);
   std::size_t added = 0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
-    const CcpProblem& problem = delassus_.problem();
-    const Vec3 u = load_block(u_, i) + load_block(problem.r, i);
-    if (active_[i] != 0 || shortage(problem.contacts[i], u) <= tolerance) continue;
+    if (active_[i] != 0) continue;
+    const CcpContact& c = problem.contacts[i];
+    const Vec3 u = relative_velocity(c, w_[c.a], w_[c.b]) + load_block(problem.r, i);
+    // A number that is not finite is for the solver to report.
+    if (shortage(c, u) <= tolerance) continue;
     active_[i] = 1;
     ++added;
   }
   return added;
 }
 
-SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const CcpProblem& problem, const SolveContext& context,
-                                          std::span<double> gamma) {
+std::size_t ActiveSetSolve::mark_guess(const CcpProblem& problem, const SolveContext& context,
+                                       std::span<const double> gamma) {
+  delassus_.bind(problem, context.executor);
+  w_.resize(problem.bodies());
+  active_.resize(problem.blocks());
+  std::size_t carrying = 0;
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    active_[i] = static_cast<char>(gamma[3 * i] > 0.0);
+    carrying += static_cast<std::size_t>(active_[i]);
+  }
+  return carrying + add_violated(gamma, 0.0);
+}
+
+SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext& context, std::span<double> gamma) {
+  const CcpProblem& problem = delassus_.problem();
+  const bool compliant = !problem.compliance.empty();
   index_.clear();
   contacts_.clear();
   r_.clear();
   compliance_.clear();
   gamma_.clear();
+  // Room for all: how many are active changes from step to step.
+  index_.reserve(problem.blocks());
+  contacts_.reserve(problem.blocks());
+  r_.reserve(problem.rows());
+  gamma_.reserve(problem.rows());
+  if (compliant) compliance_.reserve(problem.rows());
   for (std::uint32_t i = 0; i < active_.size(); ++i) {
     if (active_[i] == 0) continue;
     index_.push_back(i);
     contacts_.push_back(problem.contacts[i]);
-    for (std::size_t row = 3 * i; row < 3 * i + 3; ++row) {
+    for (std::size_t row = 3 * std::size_t{i}; row < 3 * std::size_t{i} + 3; ++row) {
       r_.push_back(problem.r[row]);
       gamma_.push_back(gamma[row]);
-      if (!problem.compliance.empty()) compliance_.push_back(problem.compliance[row]);
+      if (compliant) compliance_.push_back(problem.compliance[row]);
     }
   }
   const CcpProblem part{problem.inverse_mass, problem.inverse_inertia, contacts_, r_, compliance_};
@@ -72,31 +102,54 @@ SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const CcpProblem& p
   return summary;
 }
 
+SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext& context, std::size_t active,
+                                          std::span<double> gamma) {
+  const std::uint64_t blocks = delassus_.problem().blocks();
+  // Work in updates of one contact.
+  const std::uint64_t budget = static_cast<std::uint64_t>(std::max(0, context.max_iterations)) * blocks;
+  std::uint64_t spent = 0;
+  const auto passes = [&](std::uint64_t work) { return static_cast<int>((work + blocks - 1) / blocks); };
+  SolveContext round = context;
+  if (context.on_iteration) {
+    round.on_iteration = [&](const IterationReport& report) {
+      const std::uint64_t work = spent + static_cast<std::uint64_t>(report.iteration) * active;
+      context.on_iteration({passes(work), report.residual});
+    };
+  }
+  SolveSummary total;
+  bool settled = false;
+  while (active > 0) {
+    round.max_iterations = round_length(static_cast<double>((budget - spent) / active), settled);
+    total.status = SolveStatus::iteration_limit;
+    if (round.max_iterations < 1) break;
+    const SolveSummary done = solve_active(solver, round, gamma);
+    spent = std::min(budget, spent + static_cast<std::uint64_t>(done.iterations) * active);
+    total.status = done.status;
+    if (done.status == SolveStatus::numerical_failure || done.status == SolveStatus::infeasible) break;
+    const std::size_t missing = add_violated(gamma, context.tolerance);
+    active += missing;
+    settled = missing == 0;
+    // A solver that can do no more ends the solve as well.
+    if (settled && (done.status != SolveStatus::iteration_limit || done.iterations < round.max_iterations)) break;
+  }
+  total.iterations = passes(spent);
+  return total;
+}
+
 SolveSummary ActiveSetSolve::solve(CcpSolver& solver, const CcpProblem& problem, const SolveContext& context,
                                    std::span<double> gamma) {
-  std::size_t active = mark_guess(problem, context, gamma);
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "ActiveSetSolve: gamma needs three numbers a contact");
+  if (problem.blocks() == 0) return {};
+  project_guess(problem, gamma);
+  const std::size_t active = mark_guess(problem, context, gamma);
   if (static_cast<double>(active) > kWorthwhile * static_cast<double>(problem.blocks())) {
     return solver.solve(problem, context, gamma);
   }
-  SolveSummary total;
-  SolveContext round = context;
-  double work = 0.0;  // in passes over all contacts: a pass over a part counts as that part
-  std::size_t missing = 0;
-  do {
-    const double left = static_cast<double>(context.max_iterations) - work;
-    const auto part = static_cast<double>(active + missing);
-    active += missing;
-    const double passes = left * static_cast<double>(problem.blocks()) / std::max(1.0, part);
-    round.max_iterations = static_cast<int>(std::min(passes, std::max(kShortestRound, kRoundShare * passes)));
-    if (round.max_iterations < 1) break;
-    const SolveSummary done = solve_active(solver, problem, round, gamma);
-    work += done.iterations * part / static_cast<double>(problem.blocks());
-    total.status = done.status;
-    if (done.status == SolveStatus::numerical_failure || done.status == SolveStatus::infeasible) break;
-    missing = add_violated(gamma, context.tolerance);
-  } while (missing > 0 || total.status == SolveStatus::iteration_limit);
-  total.iterations = static_cast<int>(std::ceil(work));
-  total.residual = judge_.residual(problem, gamma, context.executor);
+  SolveSummary total = solve_rounds(solver, context, active, gamma);
+  delassus_.body_velocities(gamma, w_);
+  total.residual = ccp_residual(delassus_, gamma, w_, partial_);
+  if (!std::isfinite(total.residual)) total.status = SolveStatus::numerical_failure;
+  // The part may have met the tolerance, and the whole not, by rounding only.
   if (total.residual <= context.tolerance) total.status = SolveStatus::converged;
   if (total.residual > context.tolerance && total.status == SolveStatus::converged) {
     total.status = SolveStatus::iteration_limit;

@@ -6,11 +6,11 @@
 // carries no impulse. The judge sees the whole problem in any case.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "scree/ccp/delassus.hpp"
-#include "scree/ccp/judge.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 
 namespace scree {
@@ -18,24 +18,27 @@ namespace scree {
 /// Solves whole problems through their active contacts. Keeps its memory between calls, and no information.
 class ActiveSetSolve {
  public:
-  /// As CcpSolver::solve(), with `solver` for the parts. All rounds together take at most context.max_iterations.
+  /// As CcpSolver::solve(), with `solver` for the parts. Iterations are counted in passes over all contacts, begun ones in
+  /// full: all rounds together take at most context.max_iterations. The residual is that of the whole problem; those that
+  /// on_iteration gets on the way are of the part being solved.
   SolveSummary solve(CcpSolver& solver, const CcpProblem& problem, const SolveContext& context,
                      std::span<double> gamma);
 
  private:
+  /// Marks the contacts aside whose error without impulse exceeds `tolerance` [m/s]; returns how many.
+  std::size_t add_violated(std::span<const double> gamma, double tolerance);
   /// Marks what the guess does not leave open; returns how many are marked.
   std::size_t mark_guess(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
-  /// Adds the contacts aside that close faster than `tolerance` [m/s]; returns how many.
-  std::size_t add_violated(std::span<const double> gamma, double tolerance);
-  SolveSummary solve_active(CcpSolver& solver, const CcpProblem& problem, const SolveContext& context,
+  /// The rounds, until the part is solved and nothing is missing, or the work is done.
+  SolveSummary solve_rounds(CcpSolver& solver, const SolveContext& context, std::size_t active,
                             std::span<double> gamma);
+  SolveSummary solve_active(CcpSolver& solver, const SolveContext& context, std::span<double> gamma);
 
-  DelassusOperator delassus_;
-  CcpJudge judge_;
+  DelassusOperator delassus_;  ///< of the whole problem
   std::vector<char> active_;
   std::vector<std::uint32_t> index_;
   std::vector<CcpContact> contacts_;
-  std::vector<double> r_, compliance_, gamma_, u_;
+  std::vector<double> r_, compliance_, gamma_, partial_;
   std::vector<Twist> w_;
 };
 

@@ -19,10 +19,10 @@ namespace scree {
 /// The point of K nearest to g. Any finite g; unit of g.
 inline Vec3 project_cone3(const Vec3& g, double mu) {
   const double t = std::sqrt(g.y * g.y + g.z * g.z);
-  if (t <= mu * g.x) return g;
+  if (g.x >= 0.0 && t <= mu * g.x) return g;
   const double n = (g.x + mu * t) / (1.0 + mu * mu);
   if (n <= 0.0) return {};
-  // Not inside and n > 0: t > 0, or mu n < 0 with n > 0, which mu >= 0 excludes.
+  // Not inside and n > 0: t > 0. (Without friction t = 0 <= mu n says nothing of n: hence the first condition.)
   const double scale = mu * n / t;
   return {n, scale * g.y, scale * g.z};
 }
@@ -43,7 +43,7 @@ inline ConeWeights cone_weights(double d_n, double d_t, double mu) {
 /// The point of K nearest to g in the norm that `w` was made for.
 inline Vec3 project_cone3(const Vec3& g, double mu, const ConeWeights& w) {
   const double t = std::sqrt(g.y * g.y + g.z * g.z);
-  if (t <= mu * g.x) return g;
+  if (g.x >= 0.0 && t <= mu * g.x) return g;
   const double n = w.along * g.x + w.across * t;
   if (n <= 0.0) return {};
   const double scale = mu * n / t;

@@ -87,6 +87,11 @@ TEST_F(Cone3, projection_without_friction_keeps_the_positive_normal_part) {
   EXPECT_EQ(project_cone3({0.0, 0.0, 0.0}, 0.5), Vec3{});
 }
 
+TEST_F(Cone3, projection_without_friction_of_a_purely_normal_pull_is_zero) {
+  EXPECT_EQ(project_cone3({-1.0, 0.0, 0.0}, 0.0), Vec3{});
+  EXPECT_EQ(project_cone3({-1.0, 0.0, 0.0}, 0.0, cone_weights(2.0, 3.0, 0.0)), Vec3{});
+}
+
 TEST_F(Cone3, projection_leaves_points_of_the_cone_untouched) {
   const Vec3 inside{1.0, 0.3, -0.2};
   EXPECT_EQ(project_cone3(inside, 0.5), inside);

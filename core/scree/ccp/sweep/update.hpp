@@ -88,7 +88,7 @@ inline Lanes3 turned(const Four& four, const Inertia* inertias, const std::array
 inline Lanes3 project(const Lanes3& g, const Group& group) {
   const Lanes zero{};
   const Lanes t = root(g.y * g.y + g.z * g.z);
-  const auto inside = t <= group.friction * g.x;
+  const auto inside = (g.x >= zero) & (t <= group.friction * g.x);
   const Lanes n = group.along * g.x + group.across * t;
   const auto surface = n > zero;
   const Lanes scale = group.friction * n / t;
