@@ -21,7 +21,7 @@
 
 #include <vector>
 
-#include "scree/ccp/cone3.hpp"
+#include "lanes_pass.hpp"
 #include "scree/ccp/delassus.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
@@ -47,12 +47,6 @@ class Apgd final : public CcpSolver {
   SolveSummary solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) override;
 
  private:
-  /// The metric of a contact.
-  struct Metric {
-    double normal = 0.0;   ///< 1 / d_n [kg]
-    double tangent = 0.0;  ///< 1 / d_t [kg]
-    ConeWeights weights;
-  };
   /// Sums over a pass of the contacts.
   struct Sums {
     double distance = 0.0;   ///< ||x_new - y||_D^2 [J]
@@ -62,26 +56,43 @@ class Apgd final : public CcpSolver {
     double quadratic = 0.0;  ///< x_new^T N x_new [J]
     Sums& operator+=(const Sums& o);
   };
+  /// M^-1 of a body: columns of its inverse inertia [1/(kg m2)]; lane 3 of the first: inverse mass [1/kg].
+  struct InverseMass {
+    Lanes column[3];
+    [[nodiscard]] apgd::Motion times(const apgd::Motion& p) const;
+  };
 
-  bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
-  void momentum_velocities(double beta);
+  void prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
+  void prepare_group(std::size_t run_first, std::size_t run_last, std::size_t at, double mean,
+                     std::span<const double> gamma);
+  void start_objective();
+  void spread_velocities(double beta);
   template <bool compliant>
-  Sums contact_range(std::size_t first, std::size_t last, double beta, double step);
-  Sums contact_pass(double beta, double step);
-  Sums body_pass(double beta);
-  bool descend(double beta, const SolveContext& context, SolveSummary& summary);
-  void look(const SolveContext& context, SolveSummary& summary, double start);
+  apgd::LaneSums contact_range(std::size_t first, std::size_t last, double beta);
+  Sums contact_pass(double beta);
+  Sums body_pass(double beta, double beta_next);
+  bool descend(double beta, double beta_next, const SolveContext& context, SolveSummary& summary);
+  void look(SolveSummary& summary, double start);
   double residual();
+  double residual_range(std::size_t first, std::size_t last) const;
+  /// Runs body(first contact, last contact, first group) for each run of contacts.
+  template <class Body>
+  void for_runs(const Body& body) const;
+  void unpack(std::span<double> gamma) const;
 
   ApgdOptions options_;
   DelassusOperator delassus_;
-  std::vector<Metric> metric_;
-  std::vector<double> x_, x_old_, x_best_;  ///< impulses [N s]; a pass overwrites x_old_ by x_new
-  std::vector<double> x_new_;
-  std::vector<Twist> p_, p_old_, p_new_;  ///< sums per body [N s]
-  std::vector<Twist> slots_, w_;
+  std::vector<apgd::Group> groups_;
+  std::vector<Lanes3> compliance_;          ///< per group; empty without compliance
+  std::vector<Lanes> scale_;                ///< 3 / trace(N_ii) [kg]; 0: no impulse changes anything
+  std::vector<Lanes3> x_, x_old_, x_best_;  ///< impulses [N s], as groups_
+  std::vector<Lanes3> x_new_;
+  std::vector<InverseMass> inverse_mass_;
+  std::vector<apgd::Motion> p_, p_old_, p_new_;        ///< sums per body [N s]
+  std::vector<apgd::Motion> slot_sums_, slot_motion_;  ///< per slot: sums of x_new, velocities of y
   std::vector<Sums> partial_;
   std::vector<double> residual_partial_;
+  double spread_ = -1.0;    ///< beta of the y whose velocities are in slot_motion_; below zero: of none
   double step_ = 1.0;       ///< t [1]
   double objective_ = 0.0;  ///< of x_ [J]
   double uphill_ = 0.0;     ///< of the last accepted step [J]
