@@ -23,7 +23,7 @@ constexpr double kShortestRound = 10.0;
 /// it opens by itself. The dual cone of the relaxed problem asks for u_n >= mu |u_t|, not just for a gap that does not close.
 double shortage(const CcpContact& contact, const Vec3& u) {
   const double mu = contact.friction;
-  return (mu * std::hypot(u.y, u.z) - u.x) / std::sqrt(1.0 + mu * mu);
+  return (mu * std::sqrt(u.y * u.y + u.z * u.z) - u.x) / std::sqrt(1.0 + mu * mu);
 }
 
 /// Length of a round when the work left suffices for `left` passes over the part.

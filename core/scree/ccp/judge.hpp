@@ -29,10 +29,6 @@ class CcpJudge {
   std::vector<double> partial_;
 };
 
-/// The contribution of one block [m/s]: impulse `g` [N s], velocity `u` [m/s],
-/// scale s = 3 / trace(N_ii) [kg].
-[[nodiscard]] double block_residual(const Vec3& g, const Vec3& u, double friction, double scale);
-
 /// The residual of `operator_`'s problem for the impulses `gamma` [N s] and the
 /// body velocities w = M^-1 D gamma that belong to them [m/s]. `partial` is
 /// workspace.
