@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scree/base/require.hpp"
 #include "scree/ccp/cone3.hpp"
@@ -13,11 +12,11 @@ namespace {
 
 /// Above this share of active contacts a problem is solved as it is: putting the rest aside costs more than it saves.
 constexpr double kWorthwhile = 0.7;
-/// Share of the work left that a round may take, so that contacts found missing are solved for as well; the share after a
-/// round that found none; and the least length of a round [passes], since to begin one costs some passes.
+/// Share of the iterations left that a round may take, so that contacts found missing are solved for as well; the share after
+/// a round that found none; and the least length of a round, since to begin one costs some iterations.
 constexpr double kRoundShare = 0.3;
 constexpr double kSettledShare = 0.8;
-constexpr double kShortestRound = 10.0;
+constexpr int kShortestRound = 10;
 
 /// What the judge would say of a contact without impulse [m/s], which moves with u: its distance from the dual cone. Below zero
 /// it opens by itself. The dual cone of the relaxed problem asks for u_n >= mu |u_t|, not just for a gap that does not close.
@@ -26,12 +25,11 @@ double shortage(const CcpContact& contact, const Vec3& u) {
   return (mu * std::sqrt(u.y * u.y + u.z * u.z) - u.x) / std::sqrt(1.0 + mu * mu);
 }
 
-/// Length of a round when the work left suffices for `left` passes over the part.
-int round_length(double left, bool settled) {
-  const double share = std::max(kShortestRound, (settled ? kSettledShare : kRoundShare) * left);
+/// Length of a round when `left` iterations are left.
+int round_length(int left, bool settled) {
+  const int share = std::max(kShortestRound, static_cast<int>((settled ? kSettledShare : kRoundShare) * left));
   // What would be left for the last round is not worth a beginning of its own.
-  const double length = left - share < kShortestRound ? left : share;
-  return static_cast<int>(std::min(length, static_cast<double>(std::numeric_limits<int>::max())));
+  return left - share < kShortestRound ? left : share;
 }
 
 void project_guess(const CcpProblem& problem, std::span<double> gamma) {
@@ -104,26 +102,20 @@ SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext&
 
 SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext& context, std::size_t active,
                                           std::span<double> gamma) {
-  const std::uint64_t blocks = delassus_.problem().blocks();
-  // Work in updates of one contact.
-  const std::uint64_t budget = static_cast<std::uint64_t>(std::max(0, context.max_iterations)) * blocks;
-  std::uint64_t spent = 0;
-  const auto passes = [&](std::uint64_t work) { return static_cast<int>((work + blocks - 1) / blocks); };
+  SolveSummary total;
   SolveContext round = context;
   if (context.on_iteration) {
     round.on_iteration = [&](const IterationReport& report) {
-      const std::uint64_t work = spent + static_cast<std::uint64_t>(report.iteration) * active;
-      context.on_iteration({passes(work), report.residual});
+      context.on_iteration({total.iterations + report.iteration, report.residual});
     };
   }
-  SolveSummary total;
   bool settled = false;
   while (active > 0) {
-    round.max_iterations = round_length(static_cast<double>((budget - spent) / active), settled);
+    round.max_iterations = round_length(context.max_iterations - total.iterations, settled);
     total.status = SolveStatus::iteration_limit;
     if (round.max_iterations < 1) break;
     const SolveSummary done = solve_active(solver, round, gamma);
-    spent = std::min(budget, spent + static_cast<std::uint64_t>(done.iterations) * active);
+    total.iterations += done.iterations;
     total.status = done.status;
     if (done.status == SolveStatus::numerical_failure || done.status == SolveStatus::infeasible) break;
     const std::size_t missing = add_violated(gamma, context.tolerance);
@@ -132,7 +124,6 @@ SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext&
     // A solver that can do no more ends the solve as well.
     if (settled && (done.status != SolveStatus::iteration_limit || done.iterations < round.max_iterations)) break;
   }
-  total.iterations = passes(spent);
   return total;
 }
 

@@ -18,9 +18,9 @@ namespace scree {
 /// Solves whole problems through their active contacts. Keeps its memory between calls, and no information.
 class ActiveSetSolve {
  public:
-  /// As CcpSolver::solve(), with `solver` for the parts. Iterations are counted in passes over all contacts, begun ones in
-  /// full: all rounds together take at most context.max_iterations. The residual is that of the whole problem; those that
-  /// on_iteration gets on the way are of the part being solved.
+  /// As CcpSolver::solve(), with `solver` for the parts. All rounds together take at most context.max_iterations of its
+  /// iterations. The residual is that of the whole problem; those that on_iteration gets on the way are of the part being
+  /// solved.
   SolveSummary solve(CcpSolver& solver, const CcpProblem& problem, const SolveContext& context,
                      std::span<double> gamma);
 
