@@ -114,7 +114,10 @@ void register_all() {
                                         {"pgs_coloured", "pgs", "order = \"coloured\"", true},
                                         {"apgd", "apgd", "", true},
                                         {"asgs", "asgs", "", false},
-                                        {"asgs_coloured", "asgs", "order = \"coloured\"", true}};
+                                        {"asgs_coloured", "asgs", "order = \"coloured\"", true},
+                                        {"jacobi", "jacobi", "", true},
+                                        {"spg", "spg", "", true},
+                                        {"spg_bb1", "spg", "step = \"bb1\"", true}};
   for (const Solver& s : kSolvers) {
     for (int threads = 1; threads <= (s.threaded ? 2 : 1); ++threads) {
       benchmark::RegisterBenchmark(fmt::format("iterations/{}/threads:{}", s.name, threads).c_str(), &iterations,
