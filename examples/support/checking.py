@@ -1,7 +1,8 @@
 """What the checks of the examples share: run a scene, read its tables, state a law and whether it holds.
 
-A check is called as `check.py PROGRAM FOLDER`: the scree program, and a folder for results. It prints one line a law
-and exits with 1 when one of them is broken. Standard library only.
+A check is called as `check.py PROGRAM FOLDER [full]`: the scree program, and a folder for results; `full` asks for the
+long form of checks that have one. It prints one line a law and exits with 1 when one of them is broken. Standard library
+only.
 """
 
 import csv
@@ -36,10 +37,11 @@ class Check:
     """Collects laws; use as `with Check(__file__) as check:`."""
 
     def __init__(self, script):
-        if len(sys.argv) != 3:
-            sys.exit(f"usage: {script} PROGRAM FOLDER")
+        if len(sys.argv) not in (3, 4) or sys.argv[3:] not in ([], ["full"]):
+            sys.exit(f"usage: {script} PROGRAM FOLDER [full]")
         self.scene = pathlib.Path(script).resolve().parent / "scene.toml"
         self.program, self.folder = sys.argv[1], pathlib.Path(sys.argv[2])
+        self.full = len(sys.argv) == 4
         self.broken = 0
 
     def __enter__(self):

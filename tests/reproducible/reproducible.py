@@ -1,6 +1,6 @@
 """The same scene gives the same bits: for 1 and 2 threads, run twice, in two halves, and with somebody looking.
 
-usage: reproducible.py SCREE
+usage: reproducible.py SCREE [balls a side of the heap]
 """
 
 import json
@@ -15,7 +15,7 @@ import unittest
 
 HERE = pathlib.Path(__file__).parent
 SCREE = os.path.abspath(sys.argv[1])
-HEAP = 6  # balls a side of the heap
+HEAP = int(sys.argv[2]) if len(sys.argv) > 2 else 6  # balls a side of the heap
 
 
 def heap():
@@ -24,7 +24,8 @@ def heap():
     for index in range(HEAP**3):
         i, j, k = index % HEAP, index // HEAP % HEAP, index // HEAP**2
         # Pitch 11 mm against a width of 10 mm of the longer shape; the heap begins above the drum.
-        x, y, z = 11 * i - 27 + 0.3 * (k % 3), 11 * j - 27 + 0.2 * ((i + k) % 4), 55 + 11 * k
+        middle = 5.5 * (HEAP - 1)
+        x, y, z = 11 * i - middle + 0.3 * (k % 3), 11 * j - middle + 0.2 * ((i + k) % 4), 55 + 11 * k
         shape = "pair" if index % 3 == 0 else "ball"
         text += (f'\n[[body]]\nshape = "{shape}"\nmaterial = "grain"\nmotion = "dynamic"\n'
                  f'position = ["{x} mm", "{y} mm", "{z} mm"]\n')

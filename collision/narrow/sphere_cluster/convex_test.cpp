@@ -11,6 +11,7 @@
 #include "sphere_cluster.hpp"
 #include "support/pair_scene.hpp"
 #include "support/random_numbers.hpp"
+#include "support/trials.hpp"
 
 namespace scree {
 namespace {
@@ -87,7 +88,7 @@ TEST_P(SphereAgainstConvex, contact_is_through_the_nearest_point) {
   const ConvexCase& solid = GetParam();
   RandomNumbers random{3};
   int inside = 0;
-  for (int trial = 0; trial < 400; ++trial) {
+  for (int trial = 0; trial < trials(400); ++trial) {
     const double scale = random.decades(1e-4, 10.0);
     const double r = random.decades(0.01, 10.0);  // in units of scale, as everything below
     const Vec3 centre = trial % 2 == 0 ? random.in_cube(0.5) : (0.5 + r) * random.direction() + random.in_cube(0.3);
@@ -123,7 +124,7 @@ TEST_P(SphereAgainstConvex, contact_is_through_the_nearest_point) {
 // Law: what the pair is called changes nothing but the direction of the normal.
 TEST_P(SphereAgainstConvex, swapping_turns_the_normal_round) {
   RandomNumbers random{4};
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < trials(100); ++trial) {
     const Pose ball = random.pose(1.0);
     const Pose other = random.pose(1.0);
     SphereCluster phase, swapped_phase;

@@ -7,11 +7,13 @@
 #include "mesh_tree.hpp"
 #include "scree/geometry/triangle_mesh_data.hpp"
 #include "support/random_numbers.hpp"
+#include "support/trials.hpp"
 
 namespace scree::sphere_cluster {
 namespace {
 
 using test::RandomNumbers;
+using test::trials;
 
 /// Distance of p from a triangle, by another way than the code under test: the foot on the plane when it lies inside
 /// by areas, else the nearest of three segments.
@@ -50,7 +52,7 @@ TriangleMesh sheet(int n, const Height& height) {
 // Law: the nearest touch is at the least distance of all triangles; there is one whenever a triangle is within reach.
 TEST(MeshTree, nearest_touch_is_the_nearest_triangle) {
   RandomNumbers random{1};
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < trials(300); ++trial) {
     const double scale = random.decades(1e-4, 10.0);
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
@@ -81,7 +83,7 @@ TEST(MeshTree, flat_sheet_is_touched_once) {
   const TriangleMesh mesh = sheet(8, [](double, double) { return 0.0; });
   const MeshTree tree{mesh.vertices, mesh.triangles};
   MeshScratch scratch;
-  for (int trial = 0; trial < 2000; ++trial) {
+  for (int trial = 0; trial < trials(2000); ++trial) {
     Vec3 p = random.in_cube(0.99);
     // On grid lines, on diagonals, on corners, and anywhere.
     if (trial % 4 == 1) p.x = 0.25 * std::round(4.0 * p.x);
@@ -106,7 +108,7 @@ TEST(MeshTree, roof_is_touched_once_and_valley_twice) {
   const TriangleMesh valley = sheet(6, [](double x, double) { return 0.5 * std::abs(x); });
   const MeshTree on_roof{roof.vertices, roof.triangles};
   const MeshTree in_valley{valley.vertices, valley.triangles};
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int trial = 0; trial < trials(300); ++trial) {
     const double x = random.uniform(-0.05, 0.05);
     const double y = trial % 3 == 0 ? 0.0 : random.uniform(-0.5, 0.5);
     on_roof.touch({x, y, 0.2}, 0.3, 0.0, scratch);
@@ -130,7 +132,7 @@ TEST(MeshTree, box_mesh_is_a_box) {
   EXPECT_TRUE(tree.closed());
   MeshScratch scratch;
   int inside = 0;
-  for (int trial = 0; trial < 2000; ++trial) {
+  for (int trial = 0; trial < trials(2000); ++trial) {
     const Vec3 p = random.in_cube(1.0);
     const Nearest expected = nearest_on_box(half, p);
     const double r = 0.35;
@@ -160,7 +162,7 @@ TEST(MeshTree, repeated_vertices_change_nothing) {
   const MeshTree other{loose, triangles};
   EXPECT_TRUE(one.closed() && other.closed());
   MeshScratch a, b;
-  for (int trial = 0; trial < 500; ++trial) {
+  for (int trial = 0; trial < trials(500); ++trial) {
     const Vec3 p = random.in_cube(0.8);
     one.touch(p, 0.2, 0.05, a);
     other.touch(p, 0.2, 0.05, b);

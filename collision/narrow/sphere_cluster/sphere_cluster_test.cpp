@@ -6,6 +6,7 @@
 
 #include "support/pair_scene.hpp"
 #include "support/random_numbers.hpp"
+#include "support/trials.hpp"
 
 namespace scree {
 namespace {
@@ -59,7 +60,7 @@ TEST(SphereCluster, concentric_spheres_have_some_normal) {
 TEST(SphereCluster, clusters_touch_as_their_spheres) {
   RandomNumbers random{8};
   std::size_t found = 0;
-  for (int trial = 0; trial < 200; ++trial) {
+  for (int trial = 0; trial < trials(200); ++trial) {
     const auto of_a = random_spheres(random, 1 + random.below(32));
     const auto of_b = random_spheres(random, 1 + random.below(32));
     const Pose a = random.pose(0.6), b = random.pose(0.6);
@@ -95,7 +96,7 @@ TEST(SphereCluster, cluster_touches_solids_as_its_spheres) {
       primitive_data(ShapeKind::cylinder, {1.2, 1.0, 0}, true), primitive_data(ShapeKind::cone, {0.4, 0.5, 0}),
       primitive_data(ShapeKind::capsule, {0.4, 0.5, 0}),        plane_data()};
   for (const PrimitiveData& solid : solids) {
-    for (int trial = 0; trial < 50; ++trial) {
+    for (int trial = 0; trial < trials(50); ++trial) {
       const auto spheres = random_spheres(random, 8);
       const Pose pose = random.pose(0.7), other = random.pose(0.2);
       SphereCluster phase;
@@ -139,7 +140,7 @@ TEST(SphereCluster, drum_holds_a_sphere_from_inside) {
 TEST(SphereCluster, box_stands_on_a_plane_on_its_corners) {
   RandomNumbers random{10};
   const Vec3 half{0.3, 0.2, 0.1};
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < trials(100); ++trial) {
     const Pose box = random.pose(0.2), plane = random.pose(0.2);
     SphereCluster phase;
     PairScene scene{primitive_data(ShapeKind::box, half), plane_data()};
@@ -163,7 +164,7 @@ TEST(SphereCluster, box_stands_on_a_plane_on_its_corners) {
 // Law: the lowest support point against a plane is as low as the solid's support function says.
 TEST(SphereCluster, lowest_point_of_round_solids_on_a_plane) {
   RandomNumbers random{12};
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < trials(100); ++trial) {
     const Pose pose = random.pose(0.2);
     const Vec3 down = rotate_back(pose.orientation, {0, 0, -1});
     const double side = std::hypot(down.x, down.y);
@@ -186,7 +187,7 @@ TEST(SphereCluster, lowest_point_of_round_solids_on_a_plane) {
 // Law: moving both bodies together moves the contacts with them.
 TEST(SphereCluster, contacts_move_with_the_bodies) {
   RandomNumbers random{13};
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < trials(100); ++trial) {
     const auto spheres = random_spheres(random, 5);
     const Pose a = random.pose(0.6), b = random.pose(0.3), motion = random.pose(3.0);
     SphereCluster phase;
