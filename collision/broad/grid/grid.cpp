@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scree/base/release.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/parallel/executor.hpp"
 
@@ -243,11 +244,16 @@ void Grid::find_pairs(const BoxView& boxes, const Executor& executor, std::vecto
     pairs.count = 0;
     search(first, last, pairs);
   });
+  std::size_t total = out.size();
+  for (std::size_t k = 0; k < chunks; ++k) total += chunk_pairs_[k].count;
+  out.reserve(total);
   for (std::size_t k = 0; k < chunks; ++k) {
     const Pairs& pairs = chunk_pairs_[k];
     out.insert(out.end(), pairs.buffer.begin(), pairs.buffer.begin() + static_cast<std::ptrdiff_t>(pairs.count));
   }
 }
+
+void Grid::release_workspace() { release(items_, size_, extents_, item_cell_, cell_begin_, sorted_, chunk_pairs_); }
 
 }  // namespace scree
 

@@ -21,6 +21,7 @@ namespace scree {
 class Grid : public BroadPhase {
  public:
   void find_pairs(const BoxView& boxes, const Executor& executor, std::vector<CandidatePair>& out) override;
+  void release_workspace() override;
 
  private:
   /// A box in single precision, rounded outwards, relative to origin_: half the

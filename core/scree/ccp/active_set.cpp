@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 #include "scree/ccp/cone3.hpp"
 #include "scree/ccp/judge.hpp"
@@ -134,6 +135,8 @@ SolveSummary ActiveSetSolve::solve(CcpSolver& solver, const CcpProblem& problem,
   project_guess(problem, gamma);
   const std::size_t active = mark_guess(problem, context, gamma);
   if (static_cast<double>(active) > kWorthwhile * static_cast<double>(problem.blocks())) {
+    // The workspace is free for the solver's.
+    if (problem.blocks() >= kManyRecords) *this = {};
     return solver.solve(problem, context, gamma);
   }
   SolveSummary total = solve_rounds(solver, context, active, gamma);

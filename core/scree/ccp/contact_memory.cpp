@@ -1,6 +1,8 @@
 #include "scree/ccp/contact_memory.hpp"
 
 #include "scree/base/error.hpp"
+#include "scree/base/release.hpp"
+#include "scree/base/require.hpp"
 #include "scree/state/state_io.hpp"
 
 namespace scree {
@@ -13,15 +15,13 @@ void ContactMemory::recall(std::span<const ContactKey> keys, std::span<Vec3> imp
   }
 }
 
-void ContactMemory::store(std::span<const ContactKey> keys, std::span<const Vec3> impulse) {
-  keys_.assign(keys.begin(), keys.end());
-  impulse_.assign(impulse.begin(), impulse.end());
+void ContactMemory::store(std::vector<ContactKey>& keys, std::vector<Vec3>& impulse) {
+  SCREE_REQUIRE(keys.size() == impulse.size(), "ContactMemory: keys and impulses differ in number");
+  keys_.swap(keys);
+  impulse_.swap(impulse);
 }
 
-void ContactMemory::clear() {
-  keys_.clear();
-  impulse_.clear();
-}
+void ContactMemory::clear() { release(keys_, impulse_); }
 
 void ContactMemory::save(StateWriter& out) const {
   std::vector<std::uint64_t> packed;

@@ -42,8 +42,10 @@ class ContactMemory {
   /// The impulse last stored for each of `keys` (sorted) [N s], world; zero for
   /// a contact that was not there.
   void recall(std::span<const ContactKey> keys, std::span<Vec3> impulse) const;
-  /// Replaces everything by these: `keys` sorted, impulses on b [N s], world.
-  void store(std::span<const ContactKey> keys, std::span<const Vec3> impulse);
+  /// Replaces everything by these: `keys` sorted, impulses on b [N s], world. Takes the buffers, of equal length, and leaves
+  /// its own, to be filled again.
+  void store(std::vector<ContactKey>& keys, std::vector<Vec3>& impulse);
+  /// Forgets everything and frees the memory.
   void clear();
   [[nodiscard]] std::size_t size() const { return keys_.size(); }
 

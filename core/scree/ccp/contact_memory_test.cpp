@@ -7,9 +7,8 @@ namespace scree {
 namespace {
 
 TEST(contact_memory, impulses_follow_their_keys_and_new_contacts_start_at_zero) {
-  const std::vector<ContactKey> old = {
-      {1, 2, 0, 0, 0}, {1, 2, 0, 1, 0}, {1, 2, 0, 1, 5}, {1, 9, 0, 0, 0}, {4, 7, 0, 0, 3}};
-  const std::vector<Vec3> impulse = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}};
+  std::vector<ContactKey> old = {{1, 2, 0, 0, 0}, {1, 2, 0, 1, 0}, {1, 2, 0, 1, 5}, {1, 9, 0, 0, 0}, {4, 7, 0, 0, 3}};
+  std::vector<Vec3> impulse = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}};
   ContactMemory memory;
   memory.store(old, impulse);
 
@@ -21,10 +20,12 @@ TEST(contact_memory, impulses_follow_their_keys_and_new_contacts_start_at_zero) 
 }
 
 TEST(contact_memory, nothing_is_recalled_after_clear) {
-  const std::vector<ContactKey> keys = {{1, 2, 0, 0, 0}};
+  std::vector<ContactKey> keys = {{1, 2, 0, 0, 0}};
+  std::vector<Vec3> impulse = {{1, 2, 3}};
   ContactMemory memory;
-  memory.store(keys, std::vector<Vec3>{{1, 2, 3}});
+  memory.store(keys, impulse);
   memory.clear();
+  keys = {{1, 2, 0, 0, 0}};
   std::vector<Vec3> found(1, Vec3{7, 7, 7});
   memory.recall(keys, found);
   EXPECT_EQ(found[0], Vec3{});

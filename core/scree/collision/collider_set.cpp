@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 #include "scree/parallel/executor.hpp"
 
@@ -151,6 +152,8 @@ void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::spa
 ColliderView ColliderSet::view() const {
   return {key_, body_, primitive_, ordinal_, pose_, box_, movable_, kind_, ball_};
 }
+
+void ColliderSet::release_bounded() { release(bounded_key_, bounded_box_, bounded_movable_, bounded_owner_); }
 
 BoxView ColliderSet::bounded() const {
   if (all_bounded_) return {key_, box_, movable_, body_};

@@ -73,6 +73,8 @@ class ColliderSet {
   /// by bounded_index().
   [[nodiscard]] BoxView bounded() const;
   [[nodiscard]] ColliderIndex bounded_index(ColliderIndex i) const { return all_bounded_ ? i : bounded_[i]; }
+  /// Frees what only bounded() returns.
+  void release_bounded();
   /// Colliders without bounds: planes.
   [[nodiscard]] std::span<const ColliderIndex> unbounded() const { return unbounded_; }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scree/base/error.hpp"
+#include "scree/base/release.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree {
@@ -141,6 +142,10 @@ void CollisionPipeline::find_pairs(std::size_t body_count) {
   candidates_.clear();
   broad_.find_pairs(colliders_.bounded(), executor_, candidates_);
   counts_.candidates = candidates_.size();
+  if (large_) {
+    broad_.release_workspace();
+    colliders_.release_bounded();
+  }
 
   const std::size_t chunks = Executor::chunk_count(candidates_.size(), kCandidatesPerChunk);
   const auto planes = colliders_.unbounded();
@@ -158,7 +163,9 @@ void CollisionPipeline::find_pairs(std::size_t body_count) {
     const std::size_t first = part * kCandidatesPerChunk;
     keep_meeting(first, std::min(candidates_.size(), first + kCandidatesPerChunk), out);
   });
+  if (large_) release(candidates_);
   pairs_ = sorter_.sort(std::span{chunk_pairs_}.first(parts), colliders_.view().body, body_count, executor_);
+  if (large_) release(chunk_pairs_);
   counts_.pairs = pairs_.size();
 }
 
@@ -184,9 +191,20 @@ void CollisionPipeline::find_contacts() {
   executor_.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
     chunk_contacts_[chunk].clear();
     const std::size_t first = chunk * kPairsPerChunk;
-    collide(pairs_.subspan(first, std::min(kPairsPerChunk, pairs_.size() - first)), chunk_contacts_[chunk]);
+    const std::size_t pairs = std::min(kPairsPerChunk, pairs_.size() - first);
+    // Most pairs have one contact.
+    chunk_contacts_[chunk].reserve(pairs);
+    collide(pairs_.subspan(first, pairs), chunk_contacts_[chunk]);
   });
+  if (large_) {
+    pairs_ = {};
+    sorter_.release_buffers();
+    colliders_ = {};
+  }
+  join_contacts(chunks);
+}
 
+void CollisionPipeline::join_contacts(std::size_t chunks) {
   chunk_offset_.resize(chunks + 1);
   chunk_offset_[0] = 0;
   for (std::size_t k = 0; k < chunks; ++k) chunk_offset_[k + 1] = chunk_offset_[k] + chunk_contacts_[k].size();
@@ -197,12 +215,15 @@ void CollisionPipeline::find_contacts() {
                 contacts_.begin() + static_cast<std::ptrdiff_t>(chunk_offset_[k]));
     }
   });
+  if (large_) release(chunk_contacts_);
   counts_.contacts = contacts_.size();
 }
 
 std::span<const Contact> CollisionPipeline::find(const BodyView& bodies, std::span<const Vec3> velocity,
                                                  std::span<const Vec3> angular_velocity, double dt) {
   bind_new_shapes();
+  large_ = bodies.size() >= kManyRecords;
+  if (large_) release(contacts_);
   rule_ = {dt, settings_.reach_slack};
   colliders_.build(shapes_, bodies, velocity, angular_velocity, rule_, executor_);
   counts_ = {colliders_.size(), 0, 0, 0};

@@ -63,6 +63,7 @@ class CollisionPipeline {
   void find_pairs(std::size_t body_count);
   void collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const;
   void find_contacts();
+  void join_contacts(std::size_t chunks);
 
   const ShapeSet& shapes_;
   BroadPhase& broad_;
@@ -83,6 +84,7 @@ class CollisionPipeline {
   std::vector<std::size_t> chunk_offset_;
   std::vector<Contact> contacts_;
   CollisionCounts counts_;
+  bool large_ = false;  ///< buffers are freed as soon as nobody reads them any more
 };
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scree/base/release.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree {
@@ -58,5 +59,7 @@ std::span<const ColliderPair> PairSorter::sort(std::span<const std::vector<Colli
   sorted_.erase(std::unique(sorted_.begin(), sorted_.end(), same), sorted_.end());
   return sorted_;
 }
+
+void PairSorter::release_buffers() { release(first_, sorted_); }
 
 }  // namespace scree

@@ -20,6 +20,9 @@ class PairSorter {
   std::span<const ColliderPair> sort(std::span<const std::vector<ColliderPair>> parts, std::span<const BodyIndex> body,
                                      std::size_t body_count, const Executor& executor);
 
+  /// Frees all memory; ends what sort() returned.
+  void release_buffers();
+
  private:
   std::vector<std::uint32_t> first_;  // pair of each body a
   std::vector<ColliderPair> sorted_;

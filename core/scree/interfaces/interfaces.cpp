@@ -17,6 +17,7 @@ namespace scree {
 Plugin::~Plugin() = default;
 void Plugin::save(StateWriter&) const {}
 void Plugin::load(const StateReader&) {}
+void Plugin::release_workspace() {}
 
 BroadPhase::~BroadPhase() = default;
 

@@ -23,6 +23,9 @@ class Plugin {
   virtual void save(StateWriter& out) const;
   /// Restores what save() wrote.
   virtual void load(const StateReader& in);
+  /// Frees workspace that the next call fills anew. The host asks for it in large scenes, so that the phases of a step take
+  /// the same memory one after another. By default nothing is freed.
+  virtual void release_workspace();
 };
 
 }  // namespace scree

@@ -1,5 +1,6 @@
 #include "scree/simulation/step_host.hpp"
 
+#include "scree/base/release.hpp"
 #include "scree/simulation/force_sum.hpp"
 
 namespace scree {
@@ -28,8 +29,13 @@ SolveSummary StepHost::solve_ccp(const CcpProblem& problem, std::span<double> ga
                              .on_iteration = {}};
   CcpSolver& solver = *parts_.solver->plugin;
   return guarded(parts_.solver->info, ErrorKind::diverged, [&] {
-    return parts_.active_set ? active_set_.solve(solver, problem, context, gamma)
-                             : solver.solve(problem, context, gamma);
+    const SolveSummary summary =
+        parts_.active_set ? active_set_.solve(solver, problem, context, gamma) : solver.solve(problem, context, gamma);
+    if (problem.blocks() >= kManyRecords) {
+      active_set_ = {};
+      solver.release_workspace();
+    }
+    return summary;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
 #include "scree/interfaces/plugin_library.hpp"
@@ -333,6 +334,12 @@ SolveSummary Apgd::solve(const CcpProblem& problem, const SolveContext& context,
   if (!std::isfinite(summary.residual)) summary.status = SolveStatus::numerical_failure;
   if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
   return summary;
+}
+
+void Apgd::release_workspace() {
+  delassus_ = {};
+  release(groups_, compliance_, scale_, x_, x_old_, x_best_, x_new_, inverse_mass_);
+  release(p_, p_old_, p_new_, slot_sums_, slot_motion_);
 }
 
 }  // namespace scree

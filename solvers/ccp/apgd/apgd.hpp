@@ -45,6 +45,7 @@ class Apgd final : public CcpSolver {
   static std::vector<Parameter> parameters();
 
   SolveSummary solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) override;
+  void release_workspace() override;
 
  private:
   /// Sums over a pass of the contacts.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
 #include "scree/ccp/judge.hpp"
@@ -95,6 +96,12 @@ SolveSummary Pgs::solve(const CcpProblem& problem, const SolveContext& context, 
     summary.status = SolveStatus::numerical_failure;
   }
   return summary;
+}
+
+void Pgs::release_workspace() {
+  delassus_ = {};
+  sweep_ = {};
+  release(w_, partial_, guess_);
 }
 
 }  // namespace scree

@@ -29,6 +29,7 @@ class Pgs final : public CcpSolver {
   static std::vector<Parameter> parameters();
 
   SolveSummary solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) override;
+  void release_workspace() override;
 
  private:
   bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);

@@ -1,7 +1,9 @@
 #include "contact_assembly.hpp"
 
 #include <algorithm>
+#include <iterator>
 
+#include "scree/base/release.hpp"
 #include "scree/model/material.hpp"
 #include "scree/parallel/executor.hpp"
 
@@ -39,6 +41,15 @@ NormalRow normal_row(const ContactMaterial& material, const ContactLimits& limit
   return {b, 0.0};
 }
 
+bool any_compliance(const Materials& materials) {
+  for (std::uint32_t a = 0; a < materials.size(); ++a) {
+    for (std::uint32_t b = a; b < materials.size(); ++b) {
+      if (materials.pair(a, b).compliance > 0.0) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void ContactAssembly::build(const FreeMotion& motion, std::span<const Contact> contacts, const Materials& materials,
@@ -50,8 +61,7 @@ void ContactAssembly::build(const FreeMotion& motion, std::span<const Contact> c
   const std::size_t m = contacts_.size();
   blocks_.resize(m);
   r_.resize(3 * m);
-  free_velocity_.resize(3 * m);
-  compliance_.assign(3 * m, 0.0);
+  compliance_.assign(any_compliance(materials) ? 3 * m : 0, 0.0);
   executor.for_chunks(m, kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) fill_block(motion, materials, limits, dt, i);
   });
@@ -59,13 +69,19 @@ void ContactAssembly::build(const FreeMotion& motion, std::span<const Contact> c
 }
 
 void ContactAssembly::keep(const BodyView& bodies, std::span<const Contact> contacts) {
-  contacts_.clear();
-  keys_.clear();
-  for (const Contact& c : contacts) {
-    if (bodies.motion[c.a] != Motion::dynamic && bodies.motion[c.b] != Motion::dynamic) continue;
-    contacts_.push_back(c);
-    keys_.push_back(contact_key(bodies, c));
-  }
+  const auto moves = [&](const Contact& c) {
+    return bodies.motion[c.a] == Motion::dynamic || bodies.motion[c.b] == Motion::dynamic;
+  };
+  kept_.clear();
+  contacts_ = contacts;
+  if (std::all_of(contacts.begin(), contacts.end(), moves)) return;
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(kept_), moves);
+  contacts_ = kept_;
+}
+
+void ContactAssembly::release_problem() {
+  order_ = {};
+  release(block_of_, cursor_, inverse_mass_, inverse_inertia_, blocks_, r_, compliance_);
 }
 
 // Counting sort by the smaller number of the two bodies, stable.
@@ -107,9 +123,8 @@ void ContactAssembly::fill_block(const FreeMotion& motion, const Materials& mate
   const Vec3 free = relative_velocity(block, {motion.velocity[c.a], motion.angular_velocity[c.a]},
                                       {motion.velocity[c.b], motion.angular_velocity[c.b]});
   const NormalRow row = normal_row(material, limits, c.gap, before.x, free.x, dt);
-  store_block(free_velocity_, i, free);
   store_block(r_, i, free + Vec3{row.b, 0.0, 0.0});
-  compliance_[3 * i] = row.compliance;
+  if (!compliance_.empty()) compliance_[3 * i] = row.compliance;
 }
 
 }  // namespace scree::dvi

@@ -18,7 +18,6 @@
 #include <span>
 #include <vector>
 
-#include "scree/ccp/contact_memory.hpp"
 #include "scree/ccp/problem.hpp"
 #include "scree/ccp/twist.hpp"
 #include "spatial_order.hpp"
@@ -47,18 +46,17 @@ struct FreeMotion {
 /// in spatial order; contacts stay in the order in which they were found.
 class ContactAssembly {
  public:
-  /// Contacts between two bodies that forces do not move are left out.
+  /// Contacts between two bodies that forces do not move are left out. `contacts` outlive what is asked here later.
   void build(const FreeMotion& motion, std::span<const Contact> contacts, const Materials& materials,
              const ContactLimits& limits, double dt, const Executor& executor);
 
   [[nodiscard]] CcpProblem problem() const { return {inverse_mass_, inverse_inertia_, blocks_, r_, compliance_}; }
-  /// u(v_f) of each block, 3 m [m/s].
-  [[nodiscard]] std::span<const double> free_velocity() const { return free_velocity_; }
+  /// Frees everything but contacts().
+  void release_problem();
   /// Bodies of the scene by number in the problem.
   [[nodiscard]] std::span<const BodyIndex> bodies() const { return order_.bodies(); }
-  /// The contacts in the problem, as found, their keys, and the block of each.
+  /// The contacts in the problem, as found, and the block of each.
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
-  [[nodiscard]] std::span<const ContactKey> keys() const { return keys_; }
   [[nodiscard]] std::span<const std::uint32_t> block_of() const { return block_of_; }
 
  private:
@@ -69,8 +67,8 @@ class ContactAssembly {
                   std::size_t contact);
 
   SpatialOrder order_;
-  std::vector<Contact> contacts_;
-  std::vector<ContactKey> keys_;
+  std::span<const Contact> contacts_;  ///< those found, or those kept
+  std::vector<Contact> kept_;          ///< empty unless some were left out
   std::vector<std::uint32_t> block_of_;
   std::vector<std::uint32_t> cursor_;
 
@@ -79,7 +77,6 @@ class ContactAssembly {
   std::vector<CcpContact> blocks_;
   std::vector<double> r_;
   std::vector<double> compliance_;
-  std::vector<double> free_velocity_;
 };
 
 }  // namespace scree::dvi

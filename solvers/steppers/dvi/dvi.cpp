@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "rotation.hpp"
+#include "scree/base/release.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/parallel/executor.hpp"
 #include "scree/state/state_io.hpp"
@@ -45,6 +46,7 @@ std::vector<Parameter> Dvi::parameters() {
 }
 
 StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double time, double dt) {
+  if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_);
   free_motion(services, bodies.view, time, dt);
   const std::span<const Contact> found = services.contacts(bodies.view, velocity_, angular_velocity_, dt);
   assembly_.build({bodies.view, velocity_, angular_velocity_}, found, services.materials(), options_.limits, dt,
@@ -52,7 +54,7 @@ StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double ti
   StepSummary summary;
   summary.contacts = assembly_.contacts().size();
   measure_overlap(bodies.view, summary);
-  summary.solve = solve(services, summary, dt);
+  summary.solve = solve(services, bodies.view, summary, dt);
   move(bodies, services.executor(), dt);
   return summary;
 }
@@ -83,64 +85,98 @@ void Dvi::free_motion(StepServices& services, const BodyView& bodies, double tim
       }
     }
   });
+  if (n >= kManyRecords) release(force_, torque_);
 }
 
-void Dvi::recall(const CcpProblem& problem, double dt) {
+void Dvi::find_keys(const BodyView& bodies) {
+  const std::span<const Contact> contacts = assembly_.contacts();
+  keys_.resize(contacts.size());
+  for (std::size_t k = 0; k < contacts.size(); ++k) keys_[k] = contact_key(bodies, contacts[k]);
+}
+
+void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
   gamma_.assign(problem.rows(), 0.0);
   if (!options_.warm_start || memory_.size() == 0) return;
+  find_keys(bodies);
   world_impulse_.resize(problem.blocks());
-  memory_.recall(assembly_.keys(), world_impulse_);
+  memory_.recall(keys_, world_impulse_);
   // A resting contact's impulse goes with the step.
   const double scale = dt / memory_dt_;
   for (std::size_t k = 0; k < world_impulse_.size(); ++k) {
     const std::size_t i = assembly_.block_of()[k];
     store_block(gamma_, i, in_frame(problem.contacts[i], scale * world_impulse_[k]));
   }
+  if (problem.blocks() < kManyRecords) return;
+  // The solver needs the room; remember() makes them anew.
+  memory_.clear();
+  release(keys_, world_impulse_);
 }
 
-SolveSummary Dvi::solve(StepServices& services, StepSummary& summary, double dt) {
+SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt) {
   const CcpProblem problem = assembly_.problem();
-  recall(problem, dt);
+  recall(bodies, problem, dt);
   SolveSummary solved;
   if (problem.blocks() > 0) {
-    delassus_.bind(problem, &services.executor());
     if (options_.coulomb) {
+      delassus_.bind(problem, &services.executor());
       const dvi::CoulombSummary outer = coulomb_.solve(services, problem, delassus_, options_.coulomb_limits, gamma_);
       solved = outer.solve;
       summary.friction_solves = outer.solves;
       summary.friction_error = outer.error;
     } else {
       solved = services.solve_ccp(problem, gamma_);
+      delassus_.bind(problem, &services.executor());
     }
     w_.resize(problem.bodies());
     delassus_.body_velocities(gamma_, w_);
-    for (std::size_t k = 0; k < w_.size(); ++k) {
-      const BodyIndex body = assembly_.bodies()[k];
-      velocity_[body] += w_[k].linear;
-      angular_velocity_[body] += w_[k].angular;
-    }
   }
-  keep_results(problem, dt);
+  keep_results(problem);
+  remember(bodies, problem, dt);
+  for (std::size_t k = 0; k < problem.bodies(); ++k) {
+    const BodyIndex body = assembly_.bodies()[k];
+    velocity_[body] += w_[k].linear;
+    angular_velocity_[body] += w_[k].angular;
+  }
+  if (problem.blocks() >= kManyRecords) release_step();
   return solved;
 }
 
-void Dvi::keep_results(const CcpProblem& problem, double dt) {
+// While velocity_ is still that of the free motion.
+void Dvi::keep_results(const CcpProblem& problem) {
   const std::size_t m = problem.blocks();
   impulse_.resize(m);
   before_.resize(m);
   after_.resize(m);
-  world_impulse_.resize(m);
+  const auto free = [&](std::uint32_t number) {
+    const BodyIndex body = assembly_.bodies()[number];
+    return Twist{velocity_[body], angular_velocity_[body]};
+  };
   for (std::size_t k = 0; k < m; ++k) {
     const std::size_t i = assembly_.block_of()[k];
     const CcpContact& c = problem.contacts[i];
     impulse_[k] = load_block(gamma_, i);
-    before_[k] = load_block(assembly_.free_velocity(), i);
+    before_[k] = relative_velocity(c, free(c.a), free(c.b));
     after_[k] = before_[k] + relative_velocity(c, w_[c.a], w_[c.b]);
-    world_impulse_[k] = in_world(c, impulse_[k]);
   }
+}
+
+void Dvi::remember(const BodyView& bodies, const CcpProblem& problem, double dt) {
   if (!options_.warm_start) return;
-  memory_.store(assembly_.keys(), world_impulse_);
+  find_keys(bodies);
+  world_impulse_.resize(problem.blocks());
+  for (std::size_t k = 0; k < world_impulse_.size(); ++k) {
+    world_impulse_[k] = in_world(problem.contacts[assembly_.block_of()[k]], impulse_[k]);
+  }
+  memory_.store(keys_, world_impulse_);
   memory_dt_ = dt;
+}
+
+// Frees what nobody reads before the next step.
+void Dvi::release_step() {
+  assembly_.release_problem();
+  delassus_ = {};
+  coulomb_ = {};
+  release(gamma_, w_, keys_, world_impulse_);
 }
 
 void Dvi::measure_overlap(const BodyView& bodies, StepSummary& summary) const {

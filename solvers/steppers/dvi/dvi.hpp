@@ -12,6 +12,7 @@
 
 #include "contact_assembly.hpp"
 #include "coulomb.hpp"
+#include "scree/ccp/contact_memory.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/time_stepper.hpp"
 
@@ -26,7 +27,7 @@ struct DviOptions {
   bool warm_start = true;   ///< start from the impulses of the last step
 };
 
-/// The stepper. No allocation in a step once its workspace has its size.
+/// The stepper. No allocation in a step once its workspace has its size, unless there are many contacts.
 class Dvi final : public TimeStepper {
  public:
   explicit Dvi(const DviOptions& options) : options_{options} {}
@@ -40,9 +41,12 @@ class Dvi final : public TimeStepper {
 
  private:
   void free_motion(StepServices& services, const BodyView& bodies, double time, double dt);
-  SolveSummary solve(StepServices& services, StepSummary& summary, double dt);
-  void recall(const CcpProblem& problem, double dt);
-  void keep_results(const CcpProblem& problem, double dt);
+  SolveSummary solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt);
+  void recall(const BodyView& bodies, const CcpProblem& problem, double dt);
+  void find_keys(const BodyView& bodies);
+  void keep_results(const CcpProblem& problem);
+  void remember(const BodyView& bodies, const CcpProblem& problem, double dt);
+  void release_step();
   void measure_overlap(const BodyView& bodies, StepSummary& summary) const;
   void move(const BodyState& bodies, const Executor& executor, double dt) const;
 
@@ -54,10 +58,12 @@ class Dvi final : public TimeStepper {
   std::vector<Vec3> force_, torque_;
   std::vector<Vec3> velocity_, angular_velocity_;  ///< of all bodies: free, then with impulses
   std::vector<Vec3> gyroscopic_;                   ///< change by gyroscopic torque, world; empty when off
-  std::vector<double> gamma_, change_;
+  std::vector<double> gamma_;
   std::vector<Twist> w_;
 
-  std::vector<Vec3> impulse_, before_, after_, world_impulse_;  ///< per contact, as found
+  std::vector<Vec3> impulse_, before_, after_;  ///< per contact, as found
+  std::vector<ContactKey> keys_;                ///< per contact, as found
+  std::vector<Vec3> world_impulse_;
   ContactMemory memory_;
   double memory_dt_ = 0.0;  ///< step that the remembered impulses belong to [s]
 };

@@ -1,0 +1,22 @@
+// Gives the memory of buffers back between the phases of a step.
+//
+// A step goes through phases that need large buffers of their own: collision, the contact problem, its solver. In a large
+// scene each phase frees what nobody reads any more, so that the next one takes the same memory; buffers are then made at
+// their exact length each time, without the slack of a buffer that grew. In a small scene buffers are kept instead: nothing is
+// allocated in a step, and there is nothing to gain.
+#pragma once
+
+#include <cstddef>
+
+namespace scree {
+
+/// From so many bodies or contacts on, buffers are freed between phases: megabytes, for which the allocator costs little.
+inline constexpr std::size_t kManyRecords = std::size_t{1} << 14;
+
+/// Frees the memory of containers, not just their items.
+template <class... Buffers>
+void release(Buffers&... buffers) {
+  (Buffers{}.swap(buffers), ...);
+}
+
+}  // namespace scree
