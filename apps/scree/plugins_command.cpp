@@ -8,6 +8,7 @@
 #include "say.hpp"
 #include "scene_plugins.hpp"
 #include "scree/config/describe_text.hpp"
+#include "scree/config/suggest.hpp"
 
 namespace scree {
 namespace {
@@ -31,10 +32,21 @@ void list_plugins(const PluginHost& host) {
   for (const auto& folder : host.searched()) say("  {}\n", folder.string());
 }
 
+/// ", for example KIND:NAME" with what `name` may have meant, whatever its kind is.
+std::string example_of(const PluginHost& host, const std::string& name) {
+  std::vector<std::string> names;
+  for (const PluginEntry* entry : host.entries()) names.push_back(entry->name);
+  const std::string nearest = nearest_word(name, names);
+  for (const PluginEntry* entry : host.entries()) {
+    if (nearest.empty() || entry->name == nearest) return ", for example " + entry->kind + ":" + entry->name;
+  }
+  return {};
+}
+
 void show_plugin(const PluginHost& host, const std::string& name) {
   const std::size_t colon = name.find(':');
   if (colon == std::string::npos) {
-    throw Error{ErrorKind::usage, "'" + name + "' names no plugin; write KIND:NAME, for example force_field:" + name};
+    throw Error{ErrorKind::usage, "'" + name + "' names no plugin; write KIND:NAME" + example_of(host, name)};
   }
   const PluginEntry& entry = host.entry(name.substr(0, colon), name.substr(colon + 1), {});
   say("{}:{}\n  {}\n  from {} {}\n", entry.kind, entry.name, entry.help, entry.library, entry.version);

@@ -20,7 +20,7 @@ Zone::Zone(const Options& options) : is_box_{options.type() == "box"} {
     box_ = {options.vector("lower"), options.vector("upper")};
     for (int axis = 0; axis < 3; ++axis) {
       if (box_.lower[axis] > box_.upper[axis])
-        throw options.error("upper", "the box is empty; every component of 'upper' must be at least that of 'lower'");
+        throw options.error("upper", "must be at least 'lower' in every component, or the box is empty");
     }
     return;
   }
@@ -29,10 +29,9 @@ Zone::Zone(const Options& options) : is_box_{options.type() == "box"} {
   inner_radius_ = options.number("inner_radius");
   outer_radius_ = number_or_infinity(options, "outer_radius");
   half_width_ = number_or_infinity(options, "half_width");
-  if (width_ <= 0.0)
-    throw options.error("to", "the sector is empty; it runs counter-clockwise, so 'to' must be larger than 'from'");
+  if (width_ <= 0.0) throw options.error("to", "must be larger than 'from', as the sector runs counter-clockwise");
   if (outer_radius_ <= inner_radius_)
-    throw options.error("outer_radius", "the sector is empty; 'outer_radius' must be larger than 'inner_radius'");
+    throw options.error("outer_radius", "must be larger than 'inner_radius', or the sector is empty");
 }
 
 std::vector<Variant> Zone::variants() {

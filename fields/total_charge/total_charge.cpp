@@ -9,7 +9,7 @@ namespace scree {
 
 TotalCharge::TotalCharge(const Options& options) : names_{options.texts("terms")} {
   if (std::find(names_.begin(), names_.end(), "charge") != names_.end())
-    throw options.error("terms", "'charge' cannot be a term of itself; name the columns that it is the sum of");
+    throw options.error("terms", "must not hold 'charge' itself; name the columns that it is the sum of");
 }
 
 std::vector<Parameter> TotalCharge::parameters() {

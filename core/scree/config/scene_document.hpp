@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scree/base/error.hpp"
@@ -26,6 +27,8 @@ class SceneTable {
   [[nodiscard]] SceneTable table(std::string_view key) const;
   /// The tables of a list `[[key]]`, in order; a plain table counts as a list of one; empty when absent.
   [[nodiscard]] std::vector<SceneTable> tables(std::string_view key) const;
+  /// The tables [key.NAME] with their names; empty when absent. @throws Error (usage) that says so for another form.
+  [[nodiscard]] std::vector<std::pair<std::string, SceneTable>> named_tables(std::string_view key) const;
   /// The string under `key`. @throws Error (usage) when absent or not a string.
   [[nodiscard]] std::string text(std::string_view key) const;
   [[nodiscard]] SourceLocation location(std::string_view key) const;

@@ -94,6 +94,23 @@ std::vector<SceneTable> SceneTable::tables(std::string_view key) const {
   return result;
 }
 
+std::vector<std::pair<std::string, SceneTable>> SceneTable::named_tables(std::string_view key) const {
+  const SceneNode::Member* section = node_->find(key);
+  if (section == nullptr) return {};
+  const std::string form = "[" + section->key + ".NAME]";
+  if (section->value->kind != SceneKind::table) {
+    refuse_kind(*section, "written as " + form + ", a table for each name", section->value->kind);
+  }
+  std::vector<std::pair<std::string, SceneTable>> result;
+  for (const SceneNode::Member& member : section->value->members) {
+    if (member.value->kind != SceneKind::table) {
+      refuse_kind(member, "a table, as [" + section->key + "] holds only names: write " + form, member.value->kind);
+    }
+    result.emplace_back(member.key, SceneTable{member.value.get()});
+  }
+  return result;
+}
+
 std::string SceneTable::text(std::string_view key) const {
   const SceneNode::Member& member = demand(*node_, key);
   if (member.value->kind != SceneKind::text) refuse_kind(member, "a string", member.value->kind);

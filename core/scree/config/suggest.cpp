@@ -53,6 +53,11 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
   return {};
 }
 
+std::string suggestion(std::string_view word, std::span<const std::string> candidates) {
+  const std::string nearest = nearest_word(word, candidates);
+  return nearest.empty() ? std::string{} : "; did you mean '" + nearest + "'?";
+}
+
 std::string list_of(std::span<const std::string> words) {
   if (words.empty()) return "none";
   std::string text;

@@ -47,15 +47,16 @@ void check_table(const Options& o) {
   const std::vector<double>& values = o.numbers("values");
   const std::vector<double>& weights = o.numbers("weights");
   if (values.empty() || (weights.size() != values.size() && weights.size() + 1 != values.size())) {
-    throw o.error("weights", "a table of " + std::to_string(values.size()) + " values needs as many weights, or one " +
-                                 "fewer for a histogram between the values, but has " + std::to_string(weights.size()));
+    throw o.error("weights", "needs as many numbers as there are values, " + std::to_string(values.size()) +
+                                 ", or one fewer for a histogram between the values, but has " +
+                                 std::to_string(weights.size()));
   }
   const bool negative = std::any_of(weights.begin(), weights.end(), [](double w) { return w < 0.0; });
   if (negative || std::accumulate(weights.begin(), weights.end(), 0.0) <= 0.0) {
-    throw o.error("weights", "weights have to be positive or zero, and not all zero");
+    throw o.error("weights", "must be positive or zero, and not all zero");
   }
   if (weights.size() + 1 == values.size() && !std::is_sorted(values.begin(), values.end())) {
-    throw o.error("values", "the values of a histogram have to increase");
+    throw o.error("values", "must increase, as they bound the classes of a histogram");
   }
 }
 
@@ -89,7 +90,7 @@ Draw law(const Options& o) {
 
 /// Refuses bounds that leave (almost) nothing of a law: one draw in a hundred has to lie within them.
 void check_bounds(const Options& o, const Draw& draw, double minimum, double maximum) {
-  if (minimum >= maximum) throw o.error("min", "min has to be below max");
+  if (minimum >= maximum) throw o.error("min", "must be below 'max'");
   RandomStream random{0, "bounds of a distribution"};
   int inside = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -97,9 +98,8 @@ void check_bounds(const Options& o, const Draw& draw, double minimum, double max
     inside += static_cast<int>(value >= minimum && value <= maximum);
   }
   if (inside < 10) {
-    throw o.error("min", "fewer than 1 % of the draws of this " + o.type() +
-                             " distribution lie between min and max; "
-                             "move the bounds or the law");
+    throw o.error(o.has("min") ? "min" : "max", "leaves fewer than 1 % of the draws of this " + o.type() +
+                                                    " distribution within its bounds; move the bounds or the law");
   }
 }
 
@@ -146,7 +146,7 @@ Distribution::Distribution(double value)
 Distribution::Distribution(const Options& o) : minimum_{-kInfinity}, maximum_{kInfinity} {
   const std::string& type = o.type();
   if (type == "table") check_table(o);
-  if (type == "zhang" && o.number("mean") <= o.number("min")) throw o.error("mean", "the mean has to be above min");
+  if (type == "zhang" && o.number("mean") <= o.number("min")) throw o.error("mean", "must be above 'min'");
   draw_ = law(o);
   if (type == "constant") {
     minimum_ = maximum_ = o.number("value");

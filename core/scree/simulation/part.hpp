@@ -13,11 +13,12 @@ namespace scree {
 
 /// Who a part is: for messages, checkpoints and random streams.
 struct PartInfo {
-  std::string kind;     ///< "force_field"
-  std::string type;     ///< name of the plugin, "drag"
-  std::string name;     ///< unique within its kind; the scene's `name`, else the type
-  std::string library;  ///< file of the plugin
-  std::string version;  ///< of that library
+  std::string kind;        ///< "force_field"
+  std::string type;        ///< name of the plugin, "drag"
+  std::string name;        ///< unique within its kind; the scene's `name`, else the type
+  std::string library;     ///< file of the plugin
+  std::string version;     ///< of that library
+  SourceLocation where{};  ///< of its section in the scene
 
   /// "force_field:drag", or "force_field:drag 'upper'" when the scene gave it a name.
   [[nodiscard]] std::string label() const {

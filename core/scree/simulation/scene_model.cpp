@@ -16,12 +16,6 @@ namespace {
 
 std::string in_quotes(const std::string& word) { return "'" + word + "'"; }
 
-/// "; did you mean 'x'?" or nothing.
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? std::string{} : "; did you mean " + in_quotes(nearest) + "?";
-}
-
 Options read_single(const SceneTable& root, std::string_view section) {
   const auto& parameters = scene_section(section).parameters;
   if (root.has(section)) return validate(root.table(section), parameters, "[" + std::string{section} + "]");
@@ -56,19 +50,16 @@ std::uint32_t find_material(const Materials& materials, const std::string& name,
 
 void read_materials(const SceneTable& root, SceneModel& model) {
   model.materials.set_rule(pair_rule(model.contacts.text("unlisted_pair")));
-  if (root.has("material")) {
-    const SceneTable table = root.table("material");
-    for (const std::string& name : table.keys()) {
-      Options o = validate(table.table(name), scene_section("material").parameters, "material " + in_quotes(name));
-      Material material{name, o.number("density"), contact_material(o), {}};
-      if (o.has("attributes")) {
-        for (const std::string& key : o.table("attributes").names()) {
-          material.attributes.emplace_back(key, o.table("attributes").number(key));
-        }
+  for (const auto& [name, table] : root.named_tables("material")) {
+    Options o = validate(table, scene_section("material").parameters, "material " + in_quotes(name));
+    Material material{name, o.number("density"), contact_material(o), {}};
+    if (o.has("attributes")) {
+      for (const std::string& key : o.table("attributes").names()) {
+        material.attributes.emplace_back(key, o.table("attributes").number(key));
       }
-      model.materials.add(std::move(material));
-      model.material_options.push_back({name, std::move(o)});
     }
+    model.materials.add(std::move(material));
+    model.material_options.push_back({name, std::move(o)});
   }
   for (const SceneTable& table : root.tables("material_pair")) {
     Options o = validate(table, scene_section("material_pair").parameters, "[[material_pair]]");
@@ -80,11 +71,8 @@ void read_materials(const SceneTable& root, SceneModel& model) {
 }
 
 void read_shapes(const SceneTable& root, SceneModel& model) {
-  if (!root.has("shape")) return;
-  const SceneTable table = root.table("shape");
   const std::vector<Variant> variants = shape_variants();
-  for (const std::string& name : table.keys()) {
-    const SceneTable entry = table.table(name);
+  for (const auto& [name, entry] : root.named_tables("shape")) {
     const std::string type = entry.text("type");
     const auto variant =
         std::find_if(variants.begin(), variants.end(), [&](const Variant& v) { return v.type == type; });

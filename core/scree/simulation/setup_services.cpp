@@ -7,16 +7,11 @@
 namespace scree {
 namespace {
 
-/// "; did you mean 'x'?" or nothing.
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string nearest = nearest_word(word, candidates);
-  return nearest.empty() ? std::string{} : "; did you mean '" + nearest + "'?";
-}
-
 [[noreturn]] void throw_unknown(const PartInfo& part, std::string_view what, std::string_view name,
                                 const std::vector<std::string>& known) {
-  throw Error{ErrorKind::usage, part.label() + " asks for the " + std::string{what} + " '" + std::string{name} +
-                                    "', but the scene has " + list_of(known) + suggestion(name, known)};
+  throw Error{ErrorKind::usage, part.where,
+              part.label() + " asks for the " + std::string{what} + " '" + std::string{name} + "', but the scene has " +
+                  list_of(known) + suggestion(name, known)};
 }
 
 /// True for parts that write a column while the simulation runs, so that bodies need not bring a value.
@@ -63,10 +58,10 @@ void SetupServices::check_attributes() {
     const AttributeId id = columns.id(reader.attribute);
     const std::vector<std::string>& writers = columns.info(id).writers;
     if (writers.empty()) {
-      throw Error{ErrorKind::usage, reader.part + " reads the body attribute '" + reader.attribute + "' (" +
-                                        reader.help +
-                                        "), which nothing in the scene provides; set it in a material's, a body's or a "
-                                        "source's `attributes`, or add the part that writes it"};
+      throw Error{ErrorKind::usage, reader.where,
+                  reader.part + " reads the body attribute '" + reader.attribute + "' (" + reader.help +
+                      "), which nothing in the scene provides; set it in a material's, a body's or a "
+                      "source's `attributes`, or add the part that writes it"};
     }
     if (std::none_of(writers.begin(), writers.end(), is_running_part)) given_.emplace_back(id, r);
   }
@@ -123,8 +118,9 @@ AttributeId SetupServices::provide_attribute(const AttributeInfo& info) {
   if (columns.has(info.name) && part_->kind == ForceField::kKind) {
     for (const std::string& writer : columns.info(columns.id(info.name)).writers) {
       if (writer.rfind(ForceField::kKind, 0) != 0) continue;
-      throw Error{ErrorKind::usage, part_->label() + " and " + writer + " both write the body attribute '" + info.name +
-                                        "'; only one force field may"};
+      throw Error{ErrorKind::usage, part_->where,
+                  part_->label() + " and " + writer + " both write the body attribute '" + info.name +
+                      "'; only one force field may"};
     }
   }
   AttributeInfo signed_info = info;
@@ -133,7 +129,7 @@ AttributeId SetupServices::provide_attribute(const AttributeInfo& info) {
 }
 
 AttributeId SetupServices::require_attribute(std::string_view name, std::string_view unit, std::string_view help) {
-  readers_.push_back({part_->label(), std::string{name}, std::string{help}});
+  readers_.push_back({part_->label(), std::string{name}, std::string{help}, part_->where});
   return context_.bodies.attributes().declare({std::string{name}, std::string{unit}, std::string{help}, 0.0, {}});
 }
 

@@ -62,6 +62,7 @@ class SetupServices final : public SceneServices {
     std::string part;
     std::string attribute;
     std::string help;
+    SourceLocation where;
   };
   SetupContext context_;
   const PartInfo* part_ = nullptr;

@@ -21,8 +21,8 @@ struct BuiltPart {
 std::vector<Vec3> to_points(const Options& options, const char* key) {
   const std::vector<double>& flat = options.numbers(key);
   if (flat.empty() || flat.size() % 3 != 0) {
-    throw options.error(key, std::string{"'"} + key + "' needs three numbers a point, but has " +
-                                 std::to_string(flat.size()) + "; write x, y, z of each point, one after the other");
+    throw options.error(key, "needs three numbers a point, but has " + std::to_string(flat.size()) +
+                                 "; write x, y, z of each point, one after the other");
   }
   std::vector<Vec3> points(flat.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]};
@@ -37,13 +37,22 @@ bool from_file(const Options& options, const char* inline_key) {
   return options.has("file");
 }
 
+/// The mesh that 'file' names. @throws Error at the setting when it cannot be read.
+TriangleMesh mesh_of(const Options& options) {
+  try {
+    return read_mesh_file(options.path("file"), options.number("scale"));
+  } catch (const Error& problem) {
+    throw Error{problem.kind(), options.location("file"), problem.what()};
+  }
+}
+
 std::vector<Triangle> to_triangles(const Options& options, std::size_t vertices) {
   const std::vector<double>& flat = options.numbers("triangles");
   std::vector<Triangle> triangles(flat.size() / 3);
   for (std::size_t i = 0; i < 3 * triangles.size(); ++i) {
     if (flat[i] < 0.0 || flat[i] >= static_cast<double>(vertices) || flat[i] != std::floor(flat[i])) {
-      throw options.error("triangles", "triangle " + std::to_string(i / 3) + " names a vertex that does not exist; " +
-                                           "indices run from 0 to " + std::to_string(vertices - 1));
+      throw options.error("triangles", "names a vertex that does not exist in triangle " + std::to_string(i / 3) +
+                                           "; " + "indices run from 0 to " + std::to_string(vertices - 1));
     }
     triangles[i / 3][i % 3] = static_cast<std::uint32_t>(flat[i]);
   }
@@ -52,9 +61,7 @@ std::vector<Triangle> to_triangles(const Options& options, std::size_t vertices)
 
 BuiltPart build_hull(const Options& options) {
   BuiltPart part;
-  std::vector<Vec3> points = from_file(options, "points")
-                                 ? read_mesh_file(options.path("file"), options.number("scale")).vertices
-                                 : to_points(options, "points");
+  std::vector<Vec3> points = from_file(options, "points") ? mesh_of(options).vertices : to_points(options, "points");
   try {
     const ConvexHull hull = convex_hull(points);
     part.data.vertices = hull.vertices;
@@ -71,7 +78,7 @@ BuiltPart build_mesh(const Options& options) {
   BuiltPart part;
   TriangleMesh mesh;
   if (from_file(options, "vertices")) {
-    mesh = read_mesh_file(options.path("file"), options.number("scale"));
+    mesh = mesh_of(options);
   } else {
     if (!options.has("triangles")) throw options.error("a triangle_mesh with 'vertices' needs 'triangles' as well");
     mesh.vertices = to_points(options, "vertices");
@@ -92,7 +99,7 @@ BuiltPart build_cluster(const Options& options) {
   for (const Options& sphere : options.tables("spheres")) {
     part.data.spheres.push_back({sphere.vector("centre"), sphere.number("radius")});
   }
-  if (part.data.spheres.empty()) throw options.error("spheres", "a sphere_cluster needs at least one sphere");
+  if (part.data.spheres.empty()) throw options.error("spheres", "must hold at least one sphere");
   part.mass = cluster_mass_properties(part.data.spheres);
   return part;
 }
@@ -164,7 +171,7 @@ BuiltPart build_part(const Options& options) {
   Pose pose = pose_of(options);
   if (options.type() == "plane") {
     const Vec3 normal = options.vector("normal");
-    if (norm(normal) == 0.0) throw options.error("normal", "the normal of a plane cannot be the zero vector");
+    if (norm(normal) == 0.0) throw options.error("normal", "cannot be the zero vector");
     pose.orientation = pose.orientation * rotation_between({0, 0, 1}, normalized(normal));
   }
   part.data.primitive.local = pose;
@@ -176,7 +183,7 @@ BuiltPart build_part(const Options& options) {
 
 Pose pose_of(const Options& options) {
   const Vec3 axis = options.vector("rotation_axis");
-  if (norm(axis) == 0.0) throw options.error("rotation_axis", "the axis of a rotation cannot be the zero vector");
+  if (norm(axis) == 0.0) throw options.error("rotation_axis", "cannot be the zero vector");
   return {options.vector("position"), from_rotation_vector(options.number("rotation_angle") * normalized(axis))};
 }
 
@@ -184,7 +191,7 @@ ShapeData build_shape(const std::string& name, const Options& options, ShapeFram
   std::vector<BuiltPart> parts;
   if (options.type() == "compound") {
     for (const Options& part : options.tables("parts")) parts.push_back(build_part(part));
-    if (parts.empty()) throw options.error("parts", "a compound needs at least one part");
+    if (parts.empty()) throw options.error("parts", "must hold at least one part");
   } else {
     parts.push_back(build_part(options));
   }

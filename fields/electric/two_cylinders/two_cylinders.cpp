@@ -21,8 +21,8 @@ TwoCylinders::TwoCylinders(const Options& options)
   const double r2 = electrode_radius_;
   if (distance_ <= r1 + r2) {
     std::ostringstream sentence;
-    sentence << "the roll (radius " << r1 << " m) and the electrode (radius " << r2 << " m) touch at a distance of "
-             << distance_ << " m between their axes; the distance must be larger than " << r1 + r2 << " m";
+    sentence << "between the axes must be larger than " << r1 + r2 << " m, or the roll (radius " << r1
+             << " m) and the electrode (radius " << r2 << " m) touch; it is " << distance_ << " m";
     throw options.error("distance", sentence.str());
   }
   h1_ = (distance_ * distance_ + r1 * r1 - r2 * r2) / (2.0 * distance_);

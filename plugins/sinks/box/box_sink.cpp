@@ -11,7 +11,7 @@ BoxSink::BoxSink(const Options& options)
     : box_{options.vector("lower"), options.vector("upper")}, remove_inside_{options.text("remove") == "inside"} {
   for (int axis = 0; axis < 3; ++axis) {
     if (box_.lower[axis] >= box_.upper[axis]) {
-      throw options.error("upper", fmt::format("the box is empty along {}: upper {:g} m is not above lower {:g} m",
+      throw options.error("upper", fmt::format("makes the box empty: along {}, {:g} m is not above {:g} m of 'lower'",
                                                "xyz"[axis], box_.upper[axis], box_.lower[axis]));
     }
   }

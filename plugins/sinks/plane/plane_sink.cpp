@@ -11,7 +11,7 @@ PlaneSink::PlaneSink(const Options& options)
     : point_{options.vector("point")}, normal_{normalized(options.vector("normal"))} {
   if (norm(normal_) == 0.0) {
     throw options.error("normal",
-                        "the normal is the zero vector; give the direction in which bodies leave, for example "
+                        "is the zero vector; give the direction in which bodies leave, for example "
                         "[0, 0, -1]");
   }
 }

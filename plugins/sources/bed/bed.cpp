@@ -58,7 +58,11 @@ void BedSource::setup(SceneServices& services) {
   shapes_ = &services.shapes();
   const auto limit = options_.has("limit") ? static_cast<std::size_t>(options_.integer("limit"))
                                            : std::numeric_limits<std::size_t>::max();
-  bed_ = read_bed(options_.path("file"), limit);
+  try {
+    bed_ = read_bed(options_.path("file"), limit);
+  } catch (const Error& problem) {
+    throw Error{problem.kind(), options_.location("file"), problem.what()};
+  }
   double mass = 0.0, least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (const BedSphere& sphere : bed_.spheres) {
     mass += density_ * sphere_mass_properties(sphere.radius).volume;

@@ -50,10 +50,10 @@ Emitter::Emitter(const Options& options)
   if (options.has("mass_rate")) mass_rate_ = options.number("mass_rate");
   if (options.has("total")) total_ = static_cast<std::uint64_t>(options.integer("total"));
   if (options.has("stop")) stop_ = options.number("stop");
-  if (stop_ <= start_) throw options.error("stop", "'stop' has to be later than 'start'");
-  if (norm(cross(u_, v_)) <= 0.0) throw options.error("v", "the edges u and v of the outlet must span a rectangle");
+  if (stop_ <= start_) throw options.error("stop", "must be later than 'start'");
+  if (norm(cross(u_, v_)) <= 0.0) throw options.error("v", "and 'u', the edges of the outlet, must span a rectangle");
   if (std::abs(dot(u_, v_)) > 1e-6 * norm(u_) * norm(v_)) {
-    throw options.error("v", "the edges u and v of the outlet have to be perpendicular");
+    throw options.error("v", "must be perpendicular to 'u', the other edge of the outlet");
   }
 }
 

@@ -97,8 +97,12 @@ Family::Family(const Options& options, SceneServices& services)
                                     : Distribution{services.materials()[material_].density};
   for (const Distribution* law : {&size_, &density_}) {
     if (law->minimum() >= 0.0 && law->maximum() > 0.0) continue;
-    throw options.error(law == &size_ ? "size" : "density",
-                        "family '" + name_ + "': sizes and densities have to be above zero; give the law a `min`");
+    const std::string key = law == &size_ ? "size" : "density";
+    if (!options.has(key))
+      throw options.error("family '" + name_ + "': the density of its material must be above zero");
+    const bool fixed = options.table(key).type() == "constant";
+    throw options.error(key, "of family '" + name_ + "' must " +
+                                 (fixed ? "be above zero" : "never be below zero; give the law a 'min'"));
   }
   if (options.has("attributes")) {
     const Options& columns = options.table("attributes");
@@ -154,7 +158,7 @@ std::vector<Parameter> Mixture::parameters() {
 
 Mixture::Mixture(const Options& options, SceneServices& services) {
   for (const Options& family : options.tables("families")) families_.emplace_back(family, services);
-  if (families_.empty()) throw options.error("families", "a feed needs at least one family");
+  if (families_.empty()) throw options.error("families", "must hold at least one family");
   for (const Family& family : families_) {
     double weight = family.share();
     if (options.text("share_by") == "mass") {

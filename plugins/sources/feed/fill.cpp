@@ -28,8 +28,7 @@ Fill::Fill(const Options& options)
       count_{options.integer("count")},
       up_{options.text("up")[0] - 'x'} {
   for (int axis = 0; axis < 3; ++axis) {
-    if (upper_[axis] <= lower_[axis])
-      throw options.error("upper", "every coordinate of 'upper' has to exceed that of 'lower'");
+    if (upper_[axis] <= lower_[axis]) throw options.error("upper", "must exceed 'lower' in every coordinate");
   }
 }
 
@@ -58,7 +57,7 @@ void Fill::check_room(std::int64_t cells) const {
   if (cells >= count_) return;
   char text[200];
   std::snprintf(text, sizeof text,
-                "the box has room for %lld particles of up to %.3g mm, but %lld are wanted; make it larger",
+                "leaves room in the box for %lld particles of up to %.3g mm, but %lld are wanted; make it larger",
                 static_cast<long long>(cells), 2e3 * radius_, static_cast<long long>(count_));
   throw options_.error("upper", text);
 }

@@ -67,7 +67,8 @@ std::vector<Vec3> random_corners(const Vec3& half_axes, std::int64_t count, Rand
 
 std::vector<Vec3> written_points(const Options& shape) {
   const std::vector<double>& flat = shape.numbers("points");
-  if (flat.size() % 3 != 0) throw shape.error("points", "'points' needs three numbers a point");
+  if (flat.size() % 3 != 0)
+    throw shape.error("points", "needs three numbers a point, but has " + std::to_string(flat.size()));
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < flat.size(); i += 3) points.push_back({flat[i], flat[i + 1], flat[i + 2]});
   return points;
