@@ -31,6 +31,10 @@ class FakeSceneServices final : public SceneServices {
   void add_electric_field(const std::string& name, const ElectricField& field) { fields_[name] = &field; }
   void add_body(const std::string& name, const NamedBody& body) { bodies_[name] = body; }
 
+  /// What the part under test is called from now on.
+  void set_part_name(const std::string& name) { part_name_ = name; }
+  [[nodiscard]] std::string part_name() const override { return part_name_; }
+
   [[nodiscard]] const ElectricField& electric_field(std::string_view name) const override {
     return *find(fields_, name, "electric field");
   }
@@ -89,6 +93,7 @@ class FakeSceneServices final : public SceneServices {
     return std::find(list.begin(), list.end(), word) != list.end();
   }
 
+  std::string part_name_;
   Executor executor_;
   std::map<std::string, const ElectricField*> fields_;
   std::map<std::string, NamedBody> bodies_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scree/base/error.hpp"
+#include "scree/results/result_folder.hpp"
 
 namespace scree {
 
@@ -38,6 +39,7 @@ std::string system_failure(std::string_view what, const std::filesystem::path& f
 }
 
 OutputFile::OutputFile(std::filesystem::path file) : path_{std::move(file)} {
+  list_result(path_);
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("create");
   buffer_.reserve(kBufferSize);
@@ -100,7 +102,7 @@ void OutputFile::close(bool to_disk) {
 
 void replace_file(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   std::filesystem::path temporary = file;
-  temporary += ".part";
+  temporary += kPartOfFile;
   try {
     OutputFile out{temporary};
     out.write(bytes);

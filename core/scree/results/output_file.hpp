@@ -11,6 +11,7 @@ namespace scree {
 
 /// A file opened for writing, buffered. Every failure is an Error (io) that names the file and the system's reason.
 ///
+/// In a folder of results a new file is listed as one of the run's (scree/results/result_folder.hpp).
 /// The program has to ignore SIGXFSZ for a file size limit to arrive here as an error.
 class OutputFile {
  public:
@@ -44,6 +45,9 @@ class OutputFile {
 /// `file` stays untouched when that fails. @throws Error (io).
 void replace_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void replace_file(const std::filesystem::path& file, std::string_view text);
+
+/// What replace_file() puts behind the name while it writes.
+inline constexpr const char* kPartOfFile = ".part";
 
 /// A sentence for a failed system call: "cannot write FILE: No space left on device".
 [[nodiscard]] std::string system_failure(std::string_view what, const std::filesystem::path& file, int error_number);

@@ -1,7 +1,6 @@
 #include "scree/results/result_folder.hpp"
 
-#include <algorithm>
-#include <array>
+#include <fstream>
 #include <system_error>
 
 #include "scree/base/error.hpp"
@@ -13,31 +12,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Says that the folder is scree's, from the first moment of a run on.
+// Says that the folder is scree's, from the first moment of a run on, and lists what the run wrote, one name a line.
 constexpr const char* kMarker = ".scree_results";
 constexpr const char* kMarkerText =
-    "This folder holds results of scree. `--overwrite` removes what a run wrote here, and nothing else.\n";
+    "This folder holds results of scree. `--overwrite` removes the files below, and nothing else.\n";
 
-struct ResultPattern {
-  std::string_view begin, end;
-};
-constexpr std::array kPatterns{
-    ResultPattern{"run", ".json"},       ResultPattern{"steps", ".csv"},  ResultPattern{"removed", ".csv"},
-    ResultPattern{"bins_", ".csv"},      ResultPattern{"bins_", ".svg"},  ResultPattern{"bins_", ".png"},
-    ResultPattern{"particles_", ".vtp"}, ResultPattern{"walls_", ".vtp"}, ResultPattern{"spheres", ".pvd"},
-    ResultPattern{"spheres_", ".vtp"},   ResultPattern{"run", ".pvd"},    ResultPattern{"checkpoint", ".h5"},
-    ResultPattern{"report", ".html"},    ResultPattern{"ccp_", ".h5"},    ResultPattern{"checkpoint", ".h5.part"},
-    ResultPattern{"run", ".json.part"},  ResultPattern{kMarker, ""},
-};
+// Only plain names are removed, whatever somebody wrote into the list.
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && name != "." && name != ".." && name.find_first_of("/\n") == std::string::npos;
+}
 
 void remove_old_results(const fs::path& folder) {
-  for (const fs::directory_entry& entry : fs::directory_iterator{folder}) {
-    if (entry.is_regular_file() && is_result_name(entry.path().filename().string())) fs::remove(entry.path());
+  std::ifstream list{folder / kMarker};
+  std::string name;
+  std::getline(list, name);  // what the list is
+  while (std::getline(list, name)) {
+    if (!is_plain_name(name)) continue;
+    for (const char* end : {"", kPartOfFile}) {
+      const fs::path file = folder / (name + end);
+      if (fs::is_regular_file(fs::symlink_status(file))) fs::remove(file);
+    }
   }
 }
 
 void refuse_foreign(const fs::path& folder) {
-  if (fs::exists(folder / kMarker) || fs::exists(folder / "run.json")) return;
+  if (fs::exists(folder / kMarker)) return;
   throw Error{ErrorKind::io, "the folder " + folder.string() +
                                  " holds files, but no results of scree, so that --overwrite does not apply; choose "
                                  "another folder with -o."};
@@ -45,14 +44,26 @@ void refuse_foreign(const fs::path& folder) {
 
 }  // namespace
 
-bool is_result_name(std::string_view name) {
-  return std::any_of(kPatterns.begin(), kPatterns.end(), [&](const ResultPattern& pattern) {
-    const bool prefix = pattern.begin.ends_with('_');
-    if (!prefix)
-      return name.size() == pattern.begin.size() + pattern.end.size() && name.starts_with(pattern.begin) &&
-             name.ends_with(pattern.end);
-    return name.starts_with(pattern.begin) && name.ends_with(pattern.end);
-  });
+void list_result(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  std::error_code ignored;
+  fs::path name = file.filename();
+  if (name == kMarker || fs::exists(file, ignored) || !fs::exists(folder / kMarker, ignored)) return;
+  if (name.extension() == kPartOfFile) name.replace_extension();
+  if (name != file.filename() && fs::exists(folder / name, ignored)) return;
+  if (is_plain_name(name.string())) std::ofstream{folder / kMarker, std::ios::app} << name.string() + "\n";
+}
+
+std::string lower_snake(std::string name) {
+  for (char& c : name) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))) c = '_';
+  }
+  return name;
+}
+
+std::string result_stem(std::string_view stem, std::string_view type, std::string_view name) {
+  return std::string{stem} + (name.empty() || name == type ? "" : "_" + lower_snake(std::string{name}));
 }
 
 ResultFolder ResultFolder::create(const fs::path& folder, bool overwrite) {

@@ -59,13 +59,38 @@ TEST_F(ResultsTest, an_older_run_is_kept_unless_overwriting_is_asked_for) {
 
 TEST_F(ResultsTest, overwriting_removes_what_a_run_wrote_and_nothing_else) {
   const ResultFolder first = ResultFolder::create(folder, false);
-  const std::vector<const char*> ours{"run.json", "steps.csv", "bins_end.csv", "particles_0001.vtp", "checkpoint.h5"};
-  const std::vector<const char*> theirs{"notes.txt", "my_run.json", "bins_end.ods", "run.json.bak"};
-  for (const char* name : ours) std::ofstream{first.file(name)} << name;
+  const std::vector<const char*> ours{"run.json", "steps.csv", "a plugin's own.xyz", "checkpoint.h5"};
+  const std::vector<const char*> theirs{"notes.txt", "my_run.json", "bins_end.csv", "run.json.bak"};
+  for (const char* name : ours) replace_file(first.file(name), std::string_view{name});
+  OutputFile{first.file("track_ball.csv")}.write("opened, and the run was killed");
+  std::ofstream{first.file("run.json.part")} << "the run was killed while it wrote run.json";
   for (const char* name : theirs) std::ofstream{first.file(name)} << name;
   (void)ResultFolder::create(folder, true);
   for (const char* name : ours) EXPECT_FALSE(fs::exists(first.file(name))) << name;
+  for (const char* name : {"track_ball.csv", "run.json.part"}) EXPECT_FALSE(fs::exists(first.file(name))) << name;
   for (const char* name : theirs) EXPECT_EQ(read(first.file(name)), name);
+}
+
+TEST_F(ResultsTest, overwriting_removes_nothing_outside_of_the_folder) {
+  const ResultFolder results = ResultFolder::create(folder / "run", false);
+  std::ofstream{folder / "precious"} << "x";
+  std::ofstream{results.file(".scree_results"), std::ios::app} << "../precious\n..\n\n"
+                                                               << (folder / "precious").string();
+  (void)ResultFolder::create(results.path(), true);
+  EXPECT_EQ(read(folder / "precious"), "x");
+}
+
+TEST_F(ResultsTest, a_file_is_listed_once_however_often_it_is_replaced) {
+  const ResultFolder results = ResultFolder::create(folder, false);
+  const std::string before = read(results.file(".scree_results"));
+  for (int i = 0; i < 3; ++i) replace_file(results.file("run.pvd"), std::string_view{"x"});
+  EXPECT_EQ(read(results.file(".scree_results")), before + "run.pvd\n");
+}
+
+TEST_F(ResultsTest, parts_with_a_name_have_files_of_their_own) {
+  EXPECT_EQ(result_stem("particles", "vtk", "vtk"), "particles");
+  EXPECT_EQ(result_stem("particles", "vtk", ""), "particles");
+  EXPECT_EQ(result_stem("particles", "vtk", "Fine ones/2"), "particles_fine_ones_2");
 }
 
 TEST_F(ResultsTest, overwriting_refuses_a_folder_that_no_run_wrote) {

@@ -5,6 +5,7 @@
 
 #include "scree/config/scene_document.hpp"
 #include "scree/config/validate.hpp"
+#include "scree/results/result_folder.hpp"
 #include "scree/simulation/scene_sections.hpp"
 
 namespace scree {
@@ -34,7 +35,7 @@ Part<Interface> make_part(const SceneTable& table, const PluginCatalog& catalog,
   if (core != nullptr) *core = own;
 
   Part<Interface> part;
-  part.info = {kind, type, type, entry.library, entry.version};
+  part.info = {kind, type, type, entry.library, entry.version, table.location()};
   const std::vector<std::string> own_names = own.names();
   if (std::find(own_names.begin(), own_names.end(), "name") != own_names.end() && !own.text("name").empty()) {
     part.info.name = own.text("name");
@@ -79,6 +80,32 @@ std::vector<Part<Interface>> make_list(const SceneTable& root, const PluginCatal
   return parts;
 }
 
+/// The `file` that a part was told to write, by the convention of observers; empty for none.
+std::string file_of(const Part<Observer>& part) {
+  const Options::Entry* entry = part.options.find("file");
+  const auto* file = entry == nullptr ? nullptr : std::get_if<std::string>(&entry->value);
+  return file == nullptr ? std::string{} : *file;
+}
+
+/// Names go into the names of files, where only letters, digits and underscores are left of them.
+void refuse_shared_files(const std::vector<Part<Observer>>& observers) {
+  for (std::size_t b = 0; b < observers.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const PartInfo &one = observers[a].info, &other = observers[b].info;
+      const std::string both = one.label() + " and " + other.label();
+      const std::string file = file_of(observers[b]);
+      if (!file.empty() && file == file_of(observers[a])) {
+        throw Error{ErrorKind::usage, other.where,
+                    both + " would both write the file '" + file + "'; give one of them another `file`"};
+      }
+      if (one.type == other.type && lower_snake(one.name) == lower_snake(other.name)) {
+        throw Error{ErrorKind::usage, other.where,
+                    both + " would write the same files; give them names that differ in more than case and signs"};
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Parts make_parts(const SceneDocument& document, const PluginCatalog& catalog) {
@@ -99,6 +126,7 @@ Parts make_parts(const SceneDocument& document, const PluginCatalog& catalog) {
   parts.sources = make_list<Source>(root, catalog);
   parts.sinks = make_list<Sink>(root, catalog);
   parts.observers = make_list<Observer>(root, catalog);
+  refuse_shared_files(parts.observers);
   return parts;
 }
 

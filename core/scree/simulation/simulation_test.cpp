@@ -174,6 +174,25 @@ TEST(Simulation, unknown_sections_and_names_get_a_suggestion) {
   EXPECT_NE(refusal(scene("[shape.cube]\ntype = 'boxx'\n")).find("did you mean 'box'"), std::string::npos);
 }
 
+TEST(Simulation, materials_in_a_list_are_told_how_to_be_written) {
+  const std::string text = refusal("[simulation]\nend_time = 1\ntime_step = 1\n[[material]]\ndensity = 1000\n");
+  EXPECT_NE(text.find("'material' must be written as [material.NAME]"), std::string::npos) << text;
+  const std::string bare = refusal("[simulation]\nend_time = 1\ntime_step = 1\n[material]\ndensity = 1000\n");
+  EXPECT_NE(bare.find("scene.toml:5:1: 'density' must be a table"), std::string::npos) << bare;
+}
+
+TEST(Simulation, no_two_observers_write_the_same_file) {
+  const auto two = [](const std::string& one, const std::string& other) {
+    return scene("[[observer]]\ntype = 'writer'\n" + one + "\n[[observer]]\ntype = 'writer'\n" + other + "\n");
+  };
+  EXPECT_EQ(refusal(two("name = 'a b'", "name = 'a c'")), "");
+  const std::string alike = refusal(two("name = 'A b'", "name = 'a_b'"));
+  EXPECT_NE(alike.find("observer:writer 'A b' and observer:writer 'a_b' would write the same files"), std::string::npos)
+      << alike;
+  const std::string file = refusal(two("file = 'x.csv'", "name = 'b'\nfile = 'x.csv'"));
+  EXPECT_NE(file.find("would both write the file 'x.csv'"), std::string::npos) << file;
+}
+
 TEST(Simulation, planes_cannot_move_by_forces) {
   const std::string text =
       scene("[shape.floor]\ntype = 'plane'\n[[body]]\nshape = 'floor'\nmaterial = 'stone'\nmotion = 'dynamic'\n");

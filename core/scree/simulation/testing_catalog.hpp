@@ -137,6 +137,14 @@ class Gate final : public Sink {
   double limit_;  // [m]
 };
 
+/// Writes a file, so it says.
+class Writer final : public Observer {
+ public:
+  explicit Writer(const Options&) {}
+  static std::vector<Parameter> parameters() { return {Parameter::text("file", "name").by_default("")}; }
+  void observe(const Observation&, Attributes&) override {}
+};
+
 /// Finds the parts above by name.
 class Catalog final : public PluginCatalog {
  public:
@@ -149,6 +157,7 @@ class Catalog final : public PluginCatalog {
     list_.add<ForceField, Weigher>("weigher", "");
     list_.add<Source, Drip>("drip", "");
     list_.add<Sink, Gate>("gate", "", Gate::parameters());
+    list_.add<Observer, Writer>("writer", "", Writer::parameters());
   }
   [[nodiscard]] PluginList& list() { return list_; }
   [[nodiscard]] const PluginEntry& entry(std::string_view kind, std::string_view name,

@@ -9,6 +9,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
+#include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
 namespace scree {
@@ -23,7 +24,7 @@ Direction direction_of(const std::string& word) {
 Collector collector_of(const Options& options) {
   const Vec3 u = options.vector("u"), v = options.vector("v");
   if (norm(cross(u, v)) <= 1e-12 * norm(u) * norm(v)) {
-    throw options.error("v", "u and v are parallel or zero; they must span the collecting rectangle");
+    throw options.error("v", "and 'u' are parallel or zero; they must span the collecting rectangle");
   }
   return {options.vector("origin"),
           u,
@@ -43,15 +44,6 @@ std::vector<Target> targets_of(const Options& options) {
     }
   }
   return targets;
-}
-
-// Names go into columns and files: lower case letters, digits and underscores.
-std::string lower_snake(std::string name) {
-  for (char& c : name) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))) c = '_';
-  }
-  return name;
 }
 
 }  // namespace
@@ -129,9 +121,9 @@ void BinsObserver::setup_categories(SceneServices& services) {
   });
   for (Target& target : targets_) {
     if (categories_.find(target.name) < categories_.names.size() || target.name == categories_.names[0]) {
-      throw options_.error(
-          "target",
-          "\"" + target.name + "\" already names a material, another target, or all bodies; names must differ");
+      throw options_.error("target",
+                           "calls one '" + target.name +
+                               "', which already names a material, another target, or all bodies; names must differ");
     }
     categories_.names.push_back(target.name);
     for (const std::string& material : target.materials) {
@@ -153,25 +145,25 @@ void BinsObserver::setup_plan() {
   const bool ascending = std::adjacent_find(s.begin(), s.end(), std::greater_equal<>{}) == s.end();
   const double length = norm(collector_.u());
   if (!ascending || (!s.empty() && (s.front() <= 0.0 || s.back() >= length))) {
-    throw options_.error("splitters",
-                         fmt::format("splitters must ascend and lie between 0 and {:g} m, the length of u", length));
+    throw options_.error("splitters", fmt::format("must ascend and lie between 0 and {:g} m, the length of u", length));
   }
   if (plan_.names.empty()) {
     for (std::size_t p = 0; p <= s.size(); ++p) plan_.names.push_back(fmt::format("product {}", p + 1));
   }
   if (plan_.names.size() != s.size() + 1) {
-    throw options_.error("products", fmt::format("{} splitters make {} products, but {} are named", s.size(),
-                                                 s.size() + 1, plan_.names.size()));
+    throw options_.error("products", fmt::format("has {} names, but {} splitters make {} products", plan_.names.size(),
+                                                 s.size(), s.size() + 1));
   }
   const std::vector<std::string>& wanted = options_.texts("product_targets");
   if (!wanted.empty() && wanted.size() != plan_.names.size()) {
     throw options_.error("product_targets",
-                         fmt::format("there are {} products, but {} targets", plan_.names.size(), wanted.size()));
+                         fmt::format("has {} targets, but there are {} products", wanted.size(), plan_.names.size()));
   }
   for (const std::string& name : wanted) {
     const std::size_t category = name.empty() ? kNoTarget : categories_.find(name);
     if (category == categories_.names.size()) {
-      throw options_.error("product_targets", "\"" + name + "\" is neither a material nor a target of these bins");
+      throw options_.error("product_targets",
+                           "names '" + name + "', which is neither a material nor a target of these bins");
     }
     plan_.wanted.push_back(category);
   }

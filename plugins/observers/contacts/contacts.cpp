@@ -6,6 +6,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/results/csv.hpp"
+#include "scree/results/result_folder.hpp"
 
 namespace scree {
 namespace {
@@ -22,11 +23,14 @@ class Contacts final : public Observer {
                 .at_least(0.0)
                 .by_default(0.0),
             Parameter::boolean("loaded_only", "leave out contacts without an impulse").by_default(true),
-            Parameter::text("file", "name of the table in the result folder").by_default("contacts.csv")};
+            Parameter::text("file",
+                            "name of the table in the result folder; contacts.csv or contacts_NAME.csv when left out")
+                .by_default("")};
   }
 
   void setup(SceneServices& services, const std::filesystem::path& results) override {
     every_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(interval_ / services.time_step())));
+    if (file_.empty()) file_ = result_stem("contacts", "contacts", services.part_name()) + ".csv";
     if (results.empty()) return;
     table_.emplace(results / file_, std::vector<CsvColumn>{{"time", "s"},
                                                            {"body_a", ""},

@@ -9,6 +9,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/results/output_file.hpp"
+#include "scree/results/result_folder.hpp"
 
 namespace scree {
 
@@ -24,7 +25,7 @@ Projection projection_of(const Options& options) {
     constexpr double kRounded = 2e-3;
     const bool unit = std::abs(norm(right) - 1.0) < kRounded && std::abs(norm(up) - 1.0) < kRounded;
     if (!unit || std::abs(dot(right, up)) > kRounded) {
-      throw options.error("right", "`right` and `up` must be unit vectors at a right angle");
+      throw options.error("right", "and 'up' must be unit vectors at a right angle");
     }
     const Vec3 exact = normalized(right);
     return {exact, normalized(up - dot(up, exact) * exact)};
@@ -45,10 +46,10 @@ std::optional<Window> window_of(const Options& options) {
   const Window window{{lower[0], lower[1]}, {upper[0], upper[1]}};
   constexpr double kMostSlender = 10.0;
   if (!(window.width() > 0.0 && window.height() > 0.0)) {
-    throw options.error("upper", "both coordinates of `upper` must be greater than those of `lower`");
+    throw options.error("upper", "must be greater than 'lower' in both coordinates");
   }
   if (std::max(window.width(), window.height()) > kMostSlender * std::min(window.width(), window.height())) {
-    throw options.error("upper", "the window is too slender; its edges may differ by a factor of 10 at most");
+    throw options.error("upper", "makes the window too slender; its edges may differ by a factor of 10 at most");
   }
   return window;
 }
@@ -109,6 +110,7 @@ std::vector<Parameter> PictureObserver::parameters() {
 
 void PictureObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   name_ = services.part_name().empty() ? "scene" : services.part_name();
+  stem_ = "picture_" + lower_snake(name_);
   results_ = results;
   words_.emplace(SceneWords{services.shapes(), services.materials(),
                             labels_ ? services.body_names() : std::vector<std::string>{}});
@@ -118,12 +120,11 @@ void PictureObserver::setup(SceneServices& services, const std::filesystem::path
 }
 
 void PictureObserver::observe(const Observation& now, Attributes&) {
-  if (steps_between_ > 0 && now.step % steps_between_ == 0)
-    write(now, fmt::format("picture_{}_{:08}", name_, now.step));
+  if (steps_between_ > 0 && now.step % steps_between_ == 0) write(now, fmt::format("{}_{:08}", stem_, now.step));
 }
 
 void PictureObserver::finish(const Observation& last) {
-  if (at_end_) write(last, "picture_" + name_);
+  if (at_end_) write(last, stem_);
 }
 
 void PictureObserver::write(const Observation& now, const std::string& stem) const {

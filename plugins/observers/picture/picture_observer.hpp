@@ -30,7 +30,7 @@ class PictureObserver final : public Observer {
   std::string title_;
   std::vector<Mark> marks_;
 
-  std::string name_;  // from here on made by setup()
+  std::string name_, stem_;  // from here on made by setup()
   std::filesystem::path results_;
   std::optional<SceneWords> words_;
   std::uint64_t steps_between_ = 0;  // 0: never

@@ -11,13 +11,16 @@
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
 #include "scree/results/output_file.hpp"
+#include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
 namespace scree {
 
 namespace {
 
-std::string file_name(const char* series, std::uint64_t step) { return fmt::format("{}_{:08}.vtp", series, step); }
+std::string file_name(const std::string& series, std::uint64_t step) {
+  return fmt::format("{}_{:08}.vtp", series, step);
+}
 
 }  // namespace
 
@@ -45,6 +48,8 @@ std::vector<Parameter> VtkObserver::parameters() {
 }
 
 void VtkObserver::setup(SceneServices& services, const std::filesystem::path& results) {
+  const auto stem = [name = services.part_name()](const char* plain) { return result_stem(plain, "vtk", name); };
+  stems_ = {stem("run"), stem("particles"), stem("walls"), stem("spheres")};
   results_ = results;
   shapes_ = &services.shapes();
   materials_ = &services.materials();
@@ -61,19 +66,19 @@ void VtkObserver::finish(const Observation& last) {
 
 void VtkObserver::write_frame(const Observation& now) {
   last_step_ = now.step;
-  const std::string particles = file_name("particles", now.step);
+  const std::string particles = file_name(stems_.particles, now.step);
   write_particles(now, particles);
   frames_.push_back({now.time, 0, particles});
   if (walls_) {
     write_walls(now);
     if (!wall_file_.empty()) frames_.push_back({now.time, 1, wall_file_});
   }
-  write_collection("run.pvd", frames_);
+  write_collection(stems_.run + ".pvd", frames_);
   if (!spheres_) return;
-  const std::string balls = file_name("spheres", now.step);
+  const std::string balls = file_name(stems_.spheres, now.step);
   write_spheres(now, balls);
   sphere_frames_.push_back({now.time, 0, balls});
-  write_collection("spheres.pvd", sphere_frames_);
+  write_collection(stems_.spheres + ".pvd", sphere_frames_);
 }
 
 std::vector<TextArray> VtkObserver::texts() const {
@@ -130,7 +135,7 @@ void VtkObserver::write_walls(const Observation& now) {
   data.points = to_array("Points", std::span<const Vec3>{surface.points}, precision_);
   data.triangles = std::move(surface.triangles);
   data.cell_data = {to_array("id", owner), to_array("material", material)};
-  wall_file_ = file_name("walls", now.step);
+  wall_file_ = file_name(stems_.walls, now.step);
   write_vtp(data, results_ / wall_file_);
 }
 

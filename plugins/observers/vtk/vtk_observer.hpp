@@ -14,7 +14,8 @@ namespace scree {
 class Materials;
 
 /// Writes particles_*.vtp (dynamic bodies), walls_*.vtp (fixed and kinematic ones, when they moved), optionally
-/// spheres_*.vtp, and the collections run.pvd and spheres.pvd.
+/// spheres_*.vtp, and the collections run.pvd and spheres.pvd. An observer with a name puts it behind each stem:
+/// particles_NAME_*.vtp, run_NAME.pvd.
 class VtkObserver final : public Observer {
  public:
   explicit VtkObserver(const Options& options);
@@ -34,6 +35,11 @@ class VtkObserver final : public Observer {
     std::string file;
   };
 
+  /// Beginnings of the names of files.
+  struct Stems {
+    std::string run, particles, walls, spheres;
+  };
+
   void write_frame(const Observation& now);
   void write_particles(const Observation& now, const std::string& file) const;
   void write_spheres(const Observation& now, const std::string& file) const;
@@ -49,6 +55,7 @@ class VtkObserver final : public Observer {
   SurfaceOptions surface_options_;
 
   std::filesystem::path results_;
+  Stems stems_{"run", "particles", "walls", "spheres"};
   const ShapeSet* shapes_ = nullptr;
   const Materials* materials_ = nullptr;
   std::uint64_t steps_between_ = 1;

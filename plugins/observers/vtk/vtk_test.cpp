@@ -187,6 +187,20 @@ TEST_F(VtkObserverTest, walls_are_written_again_only_when_they_moved) {
   EXPECT_EQ(files("particles_").size(), 5u);
 }
 
+TEST_F(VtkObserverTest, two_observers_have_files_of_their_own) {
+  VtkObserver plain = make("interval = 0.1"), named = make("interval = 0.2");
+  services.set_part_name("vtk");
+  plain.setup(services, folder);
+  services.set_part_name("Coarse");
+  named.setup(services, folder);
+  observe(plain, 1, 3);
+  observe(named, 1, 3);
+  EXPECT_EQ(files("particles_").size(), 4u);
+  EXPECT_EQ(files("particles_coarse_"), std::vector<std::string>{"particles_coarse_00000002.vtp"});
+  EXPECT_NE(read("run.pvd").find("particles_00000003.vtp"), std::string::npos);
+  EXPECT_NE(read("run_coarse.pvd").find("particles_coarse_00000002.vtp"), std::string::npos);
+}
+
 TEST_F(VtkObserverTest, a_resumed_run_keeps_its_earlier_frames) {
   VtkObserver first = make("interval = 0.2");
   first.setup(services, folder);
