@@ -22,7 +22,7 @@ endif()
 
 install(EXPORT scree-targets NAMESPACE scree:: DESTINATION ${package_folder})
 configure_package_config_file(cmake/scree-config.cmake.in ${CMAKE_BINARY_DIR}/scree-config.cmake
-  INSTALL_DESTINATION ${package_folder})
+  INSTALL_DESTINATION ${package_folder} PATH_VARS CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/scree-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/scree-config.cmake ${CMAKE_BINARY_DIR}/scree-config-version.cmake
   cmake/ScreePlugin.cmake DESTINATION ${package_folder})

@@ -5,6 +5,9 @@
 # build folder (hand that to `scree run --plugin-dir`), and `cmake --install` puts it beside scree's own plugins when
 # both have one prefix.
 #
+# The test conformance:NAME puts every entry of the library through the conformance suite of its interface: in the tree
+# with SCREE_TESTS, outside of it with BUILD_TESTING when the scree that was found was built with its tests.
+#
 # Sources are compiled once, into NAME_objects; include folders, definitions and options added to NAME hold for them.
 function(scree_add_plugin name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;TEST_SOURCES;TEST_LIBRARIES" ${ARGN})
@@ -27,10 +30,12 @@ function(scree_add_plugin name)
   install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/scree/plugins)
   if(TARGET scree_flags)
     _scree_add_plugin_in_tree()
+  elseif(BUILD_TESTING AND SCREE_CONFORMANCE)
+    add_test(NAME conformance:${name} COMMAND ${SCREE_CONFORMANCE} $<TARGET_FILE:${name}>)
   endif()
 endfunction()
 
-# What only a plugin of this repository gets: its warnings, its place, its test.
+# What only a plugin of this repository gets: its warnings, its place, its tests.
 macro(_scree_add_plugin_in_tree)
   target_link_libraries(${name} PRIVATE scree_flags)
   target_link_libraries(${name}_objects PRIVATE scree_flags)
@@ -40,6 +45,9 @@ macro(_scree_add_plugin_in_tree)
     target_link_options(${name} PRIVATE -Wl,-z,defs)  # a library that LIBRARIES forgets is an error now, not when loaded
   endif()
   add_dependencies(scree_runtime ${name})
+  if(SCREE_TESTS)
+    add_test(NAME conformance:${name} COMMAND scree_conformance $<TARGET_FILE:${name}>)
+  endif()
   if(arg_TEST_SOURCES AND SCREE_TESTS)
     scree_add_test(${name}_test SOURCES $<TARGET_OBJECTS:${name}_objects> ${arg_TEST_SOURCES}
       LIBRARIES ${arg_LIBRARIES} ${arg_TEST_LIBRARIES})

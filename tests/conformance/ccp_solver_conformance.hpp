@@ -1,9 +1,8 @@
-// What every CcpSolver owes: the conformance suite of the interface.
-//
-// A solver's test instantiates it with ways to make the solver:
+// What every CcpSolver owes: the conformance suite of the interface, which scree-conformance instantiates for the
+// solvers of a plugin with their defaults. A solver's test instantiates it for variants:
 //
 //     INSTANTIATE_TEST_SUITE_P(pgs, CcpSolverConformance, testing::Values(
-//         SolverCase{"serial", [] { return std::make_unique<Pgs>(PgsOptions{}); }}), solver_case_name);
+//         SolverCase{"scalar", [] { return std::make_unique<Pgs>(PgsOptions{.scalar_step = true}); }}), solver_case_name);
 #pragma once
 
 #include "conformance/ccp_solver_case.hpp"

@@ -1,6 +1,6 @@
-// What every ForceField owes: the conformance suite of the interface.
-//
-// A field's test instantiates it with ways to make the field, set up, and to fill the columns that it reads:
+// What every ForceField owes: the conformance suite of the interface, which scree-conformance instantiates for the fields
+// of a plugin. A field's test instantiates it for variants, with ways to make the field, set up, and to fill the columns
+// that it reads:
 //
 //     INSTANTIATE_TEST_SUITE_P(gravity, ForceFieldConformance, testing::Values(ForceFieldCase{"default",
 //         [](FakeSceneServices& services) { return set_up<Gravity>("", services); }}), force_field_case_name);

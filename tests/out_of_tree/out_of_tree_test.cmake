@@ -1,5 +1,6 @@
 # Given build, source, compiler and python: installs the build into a fresh prefix, configures and builds the
-# project in `source` against it with nothing but CMAKE_PREFIX_PATH, and runs its scene with the installed program.
+# project in `source` against it with nothing but CMAKE_PREFIX_PATH, runs its conformance test, and its scene with the
+# installed program.
 cmake_minimum_required(VERSION 3.25)
 
 set(prefix ${build}/out_of_tree/prefix)
@@ -19,11 +20,18 @@ endfunction()
 
 run("install" ${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
 run("configure" ${CMAKE_COMMAND} -S ${source} -B ${plugin_build} -G Ninja -D CMAKE_PREFIX_PATH=${prefix}
-  -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
+  -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF -D BUILD_TESTING=ON)
 run("build" ${CMAKE_COMMAND} --build ${plugin_build})
 if(NOT EXISTS ${plugin_build}/push.so)
   message(FATAL_ERROR "the build left no push.so in ${plugin_build}")
 endif()
+
+run("ctest" ${CMAKE_CTEST_COMMAND} --test-dir ${plugin_build} --verbose --no-tests=error)
+foreach(expected "conformance:push" "ForceFieldConformance.copes_with_a_scene_without_bodies/push")
+  if(NOT output MATCHES "${expected}")
+    message(FATAL_ERROR "ctest did not run ${expected}:\n${output}")
+  endif()
+endforeach()
 
 # Whoever reads the example should find it as short as it is said to be.
 foreach(limit "push.cpp;25" "CMakeLists.txt;5")

@@ -1,15 +1,11 @@
 #include "bullet_dbvt.hpp"
 
-#include "conformance/broad_phase_conformance.hpp"
+#include "conformance/broad_phase_case.hpp"
 
 namespace scree {
 namespace {
 
 using namespace test;
-
-INSTANTIATE_TEST_SUITE_P(bullet_dbvt, BroadPhaseConformance,
-                         testing::Values(BroadPhaseCase{"bullet_dbvt", [] { return std::make_unique<BulletDbvt>(); }}),
-                         broad_phase_case_name);
 
 // Law: a phase that lived through other steps reports what a new one does. Sizes change a hundredfold on the way, boxes
 // pass through each other, keys vanish and others come, some in no order, some become movable.

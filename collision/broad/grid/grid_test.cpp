@@ -1,15 +1,11 @@
 #include "grid.hpp"
 
-#include "conformance/broad_phase_conformance.hpp"
+#include "conformance/broad_phase_case.hpp"
 
 namespace scree {
 namespace {
 
 using namespace test;
-
-INSTANTIATE_TEST_SUITE_P(grid, BroadPhaseConformance,
-                         testing::Values(BroadPhaseCase{"grid", [] { return std::make_unique<Grid>(); }}),
-                         broad_phase_case_name);
 
 // Law: a box that covers everything costs one candidate a box, not one a cell; a candidate is reported once.
 TEST(Grid, a_drum_costs_one_candidate_a_grain) {

@@ -7,8 +7,7 @@ namespace scree::test {
 
 INSTANTIATE_TEST_SUITE_P(
     asgs, CcpSolverConformance,
-    testing::Values(SolverCase{"serial", [] { return std::make_unique<Asgs>(AsgsOptions{}); }},
-                    SolverCase{"coloured", [] { return std::make_unique<Asgs>(AsgsOptions{.coloured = true}); }},
+    testing::Values(SolverCase{"coloured", [] { return std::make_unique<Asgs>(AsgsOptions{.coloured = true}); }},
                     SolverCase{"plain", [] { return std::make_unique<Asgs>(AsgsOptions{.accelerated = false}); }}),
     solver_case_name);
 

@@ -7,8 +7,7 @@ namespace scree::test {
 
 INSTANTIATE_TEST_SUITE_P(
     pgs, CcpSolverConformance,
-    testing::Values(SolverCase{"block", [] { return std::make_unique<Pgs>(PgsOptions{}); }},
-                    SolverCase{"scalar", [] { return std::make_unique<Pgs>(PgsOptions{.scalar_step = true}); }},
+    testing::Values(SolverCase{"scalar", [] { return std::make_unique<Pgs>(PgsOptions{.scalar_step = true}); }},
                     SolverCase{"relaxed", [] { return std::make_unique<Pgs>(PgsOptions{.relaxation = 1.5}); }},
                     SolverCase{"coloured", [] { return std::make_unique<Pgs>(PgsOptions{.coloured = true}); }}),
     solver_case_name);
