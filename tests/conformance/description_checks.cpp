@@ -49,8 +49,7 @@ TEST_P(Description, has_defaults_that_a_scene_could_write) {
   EXPECT_NO_THROW((void)default_options(GetParam().entry.parameters));
 }
 
-INSTANTIATE_TEST_SUITE_P(entry, Description, testing::ValuesIn(subjects()),
-                         [](const testing::TestParamInfo<Subject>& info) { return info.param.word(); });
+INSTANTIATE_TEST_SUITE_P(entry, Description, testing::ValuesIn(subjects()), subject_case_name);
 
 }  // namespace
 }  // namespace scree::test

@@ -15,8 +15,6 @@ class State : public testing::TestWithParam<Subject> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Made);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(State);
 
-std::string word(const testing::TestParamInfo<Subject>& info) { return info.param.word(); }
-
 std::vector<Subject> makeable() {
   std::vector<Subject> some = subjects();
   std::erase_if(some, [](const Subject& subject) { return !subject.options; });
@@ -68,8 +66,8 @@ TEST_P(State, saved_and_loaded_is_saved_the_same) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(entry, Made, testing::ValuesIn(makeable()), word);
-INSTANTIATE_TEST_SUITE_P(entry, State, testing::ValuesIn(living_subjects()), word);
+INSTANTIATE_TEST_SUITE_P(entry, Made, testing::ValuesIn(makeable()), subject_case_name);
+INSTANTIATE_TEST_SUITE_P(entry, State, testing::ValuesIn(living_subjects()), subject_case_name);
 
 }  // namespace
 }  // namespace scree::test

@@ -1,6 +1,8 @@
 // Subject: one entry of the plugin library that scree-conformance looks at, and how far it can be brought to life.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -26,6 +28,8 @@ struct Subject {
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Subject& subject) { return out << subject.word(); }
+
+inline std::string subject_case_name(const testing::TestParamInfo<Subject>& info) { return info.param.word(); }
 
 /// True when a scene has to set it: no default, and not optional.
 [[nodiscard]] bool has_to_be_set(const Parameter& parameter);
