@@ -42,6 +42,7 @@ struct Saved {
 };
 
 TEST_P(Made, from_its_settings_twice) {
+  ASSERT_EQ(GetParam().failure, "");
   const std::unique_ptr<Plugin> one = GetParam().make();
   const std::unique_ptr<Plugin> two = GetParam().make();
   ASSERT_NE(one, nullptr);

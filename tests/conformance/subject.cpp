@@ -35,35 +35,37 @@ std::string example_table(const std::vector<Parameter>& parameters) {
   return text;
 }
 
-// What is wrong with an entry that needs no setting is left to the checks, which then fail.
-Subject tried(const PluginEntry& entry) {
-  Subject subject{entry, {}, false};
-  const std::string text = example_table(entry.parameters);
+// Settings under which the entry can be made.
+void find_options(Subject& subject) {
+  const std::vector<Parameter>& parameters = subject.entry.parameters;
+  const std::string text = example_table(parameters);
   try {
-    subject.options = options_from_text(text, entry.parameters);
+    subject.options = options_from_text(text, parameters);
     const std::unique_ptr<Plugin> plugin = subject.make();
   } catch (const Error& problem) {
     if (text.empty()) {
-      subject.options = default_options(entry.parameters);
-      return subject;
+      subject.options = default_options(parameters);
+      subject.failure = problem.what();
+      return;
     }
     subject.options.reset();
-    say(entry,
-        std::string{"its required settings have no example that it takes, so only its description is checked: "} +
+    say(subject.entry,
+        std::string{"no example of its required settings makes it, so only its description is checked: "} +
             problem.what());
-    return subject;
   }
+}
+
+void try_setup(Subject& subject) {
   try {
     FakeSceneServices services;
     const std::unique_ptr<Plugin> plugin = subject.make();
-    set_up(*plugin, entry.kind, services);
+    set_up(*plugin, subject.entry.kind, services);
   } catch (const Error& problem) {
     subject.needs_scene = true;
-    say(entry, std::string{"it needs more of a scene, so it is made, but not set up: "} + problem.what());
-  } catch (const std::exception&) {
-    return subject;  // the checks set it up again, and fail
+    say(subject.entry, std::string{"it needs more of a scene, so it is made, but not set up: "} + problem.what());
+  } catch (const std::exception& problem) {
+    subject.failure = std::string{"setup() threw what is no scree::Error: "} + problem.what();
   }
-  return subject;
 }
 
 template <class Interface>
@@ -91,7 +93,12 @@ void set_up(Plugin& plugin, std::string_view kind, FakeSceneServices& services) 
 void load_subjects(const std::string& file) {
   PluginHost host;
   host.load(file);
-  for (const PluginEntry* entry : host.entries()) all().push_back(tried(*entry));
+  for (const PluginEntry* entry : host.entries()) {
+    Subject subject{*entry, {}, false, {}};
+    find_options(subject);
+    if (subject.options && subject.failure.empty()) try_setup(subject);
+    all().push_back(std::move(subject));
+  }
 }
 
 const std::vector<Subject>& subjects() { return all(); }
@@ -99,7 +106,7 @@ const std::vector<Subject>& subjects() { return all(); }
 std::vector<Subject> living_subjects() {
   std::vector<Subject> living;
   for (const Subject& subject : all()) {
-    if (subject.options && !subject.needs_scene) living.push_back(subject);
+    if (subject.options && !subject.needs_scene && subject.failure.empty()) living.push_back(subject);
   }
   return living;
 }

@@ -20,6 +20,7 @@ struct Subject {
   PluginEntry entry;
   std::optional<Options> options;  ///< nothing when its required settings keep it from being made here
   bool needs_scene = false;        ///< setup() asks for what a scene without bodies, materials and fields lacks
+  std::string failure;             ///< what escaped while it was made or set up, and should not have; else empty
 
   /// A new one, not set up. Call it only when there are options. @throws Error when it cannot be made.
   [[nodiscard]] std::unique_ptr<Plugin> make() const { return entry.make(*options); }
