@@ -7,7 +7,8 @@ class Push final : public scree::ForceField {
  public:
   explicit Push(const scree::Options& options) : acceleration_{options.vector("acceleration")} {}
   void add_forces(const scree::BodyView& bodies, double, scree::WrenchView out) const override {
-    for (std::size_t i = 0; i < bodies.size(); ++i) out.force[i] += bodies.mass[i] * acceleration_;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (bodies.motion[i] == scree::Motion::dynamic) out.force[i] += bodies.mass[i] * acceleration_;
   }
 
  private:
