@@ -12,22 +12,33 @@ constexpr std::size_t kManyBorn = 1000;  // in a step
 
 }  // namespace
 
-void MotionBackup::keep(const BodyView& bodies) {
-  position.assign(bodies.position.begin(), bodies.position.end());
-  orientation.assign(bodies.orientation.begin(), bodies.orientation.end());
-  velocity.assign(bodies.velocity.begin(), bodies.velocity.end());
-  angular_velocity.assign(bodies.angular_velocity.begin(), bodies.angular_velocity.end());
+void StepBackup::keep(const BodyStore& bodies) {
+  const BodyView view = bodies.view();
+  position.assign(view.position.begin(), view.position.end());
+  orientation.assign(view.orientation.begin(), view.orientation.end());
+  velocity.assign(view.velocity.begin(), view.velocity.end());
+  angular_velocity.assign(view.angular_velocity.begin(), view.angular_velocity.end());
+  attributes.resize(bodies.attributes().count());
+  for (AttributeId id = 0; id < attributes.size(); ++id) {
+    const std::span<const double> column = bodies.attributes().column(id);
+    attributes[id].assign(column.begin(), column.end());
+  }
 }
 
-void MotionBackup::restore(const BodyState& bodies) const {
-  std::copy(position.begin(), position.end(), bodies.position.begin());
-  std::copy(orientation.begin(), orientation.end(), bodies.orientation.begin());
-  std::copy(velocity.begin(), velocity.end(), bodies.velocity.begin());
-  std::copy(angular_velocity.begin(), angular_velocity.end(), bodies.angular_velocity.begin());
+void StepBackup::restore(BodyStore& bodies) const {
+  const BodyState state = bodies.state();
+  std::copy(position.begin(), position.end(), state.position.begin());
+  std::copy(orientation.begin(), orientation.end(), state.orientation.begin());
+  std::copy(velocity.begin(), velocity.end(), state.velocity.begin());
+  std::copy(angular_velocity.begin(), angular_velocity.end(), state.angular_velocity.begin());
+  for (AttributeId id = 0; id < attributes.size(); ++id) {
+    std::copy(attributes[id].begin(), attributes[id].end(), bodies.attributes().column(id).begin());
+  }
 }
 
-Observation Simulation::State::observation(double at) const {
-  return {bodies.view(), parts.stepper.plugin->contacts(), removed, at, time_step, steps};
+Observation Simulation::State::observation(std::uint64_t step) const {
+  return {bodies.view(), parts.stepper.plugin->contacts(), removed, static_cast<double>(step) * time_step, time_step,
+          step};
 }
 
 void Simulation::State::feed_sources() {
@@ -63,76 +74,75 @@ void Simulation::State::check_motion() const {
   }
 }
 
+void Simulation::State::advance_fields(double end) {
+  const PhaseTimer::Scope scope{timer, Phase::fields};
+  for (const Part<ForceField>& field : parts.forces) {
+    guarded(field.info, ErrorKind::diverged, [&] {
+      field.plugin->advance(bodies.view(), parts.stepper.plugin->contacts(), bodies.attributes(), end, time_step);
+    });
+  }
+}
+
+void Simulation::State::observe() {
+  const PhaseTimer::Scope scope{timer, Phase::observers};
+  const Observation now = observation(steps + 1);
+  for (const Part<Observer>& observer : parts.observers) {
+    guarded(observer.info, ErrorKind::diverged, [&] { observer.plugin->observe(now, bodies.attributes()); });
+  }
+}
+
 void Simulation::State::remove_bodies(double at) {
   const PhaseTimer::Scope scope{timer, Phase::sinks};
-  removed.clear();
-  if (parts.sinks.empty()) return;
+  std::vector<RemovedBody> now;
   const BodyView view = bodies.view();
-  leaving.assign(view.size(), 0);
-  std::vector<char> before(view.size(), 0);
+  leaving.assign(parts.sinks.empty() ? 0 : view.size(), 0);
+  std::vector<char> before;
   for (const Part<Sink>& sink : parts.sinks) {
     before = leaving;
     guarded(sink.info, ErrorKind::diverged, [&] { sink.plugin->mark(view, at, leaving); });
     for (std::size_t i = 0; i < view.size(); ++i) {
       if (view.motion[i] != Motion::dynamic) leaving[i] = 0;
       if (leaving[i] == 0 || before[i] != 0) continue;
-      removed.push_back(
+      now.push_back(
           {view.id[i], view.material[i], view.mass[i], at, view.position[i], sink.info.name, sink.plugin->reason()});
-      feed.removed[view.material[i]].add(view.mass[i]);
     }
   }
+  // Counted when every sink has spoken: one that throws undoes the step.
+  removed = std::move(now);
+  for (const RemovedBody& body : removed) feed.removed[body.material].add(body.mass);
   if (!removed.empty()) bodies.remove(leaving);
 }
 
-Simulation::Simulation(const SceneDocument& document, const PluginCatalog& catalog, const SimulationSettings& settings)
-    : state_{std::make_unique<State>(document, catalog, settings)} {}
-
-Simulation::~Simulation() = default;
-
-StepRecord Simulation::step() {
-  State& s = *state_;
-  s.feed_sources();
-  s.backup.keep(s.bodies.view());
-  StepSummary summary;
+StepSummary Simulation::State::take_step() {
+  backup.keep(bodies);
   try {
-    summary = s.advance();
-    s.check_motion();
+    const double end = static_cast<double>(steps + 1) * time_step;
+    const StepSummary summary = advance();
+    check_motion();
+    advance_fields(end);
+    observe();
+    remove_bodies(end);
+    ++steps;
+    fed_this_step = false;
+    return summary;
   } catch (...) {
-    s.backup.restore(s.bodies.state());
-    s.failed = true;
+    backup.restore(bodies);
+    failed = true;
     throw;
   }
-  const double end = static_cast<double>(s.steps + 1) * s.time_step;
-  {
-    const PhaseTimer::Scope scope{s.timer, Phase::fields};
-    for (const Part<ForceField>& field : s.parts.forces) {
-      guarded(field.info, ErrorKind::diverged, [&] {
-        field.plugin->advance(s.bodies.view(), s.parts.stepper.plugin->contacts(), s.bodies.attributes(), end,
-                              s.time_step);
-      });
-    }
-  }
-  ++s.steps;
-  s.fed_this_step = false;
-  {
-    const PhaseTimer::Scope scope{s.timer, Phase::observers};
-    const Observation now = s.observation(end);
-    for (const Part<Observer>& observer : s.parts.observers) {
-      guarded(observer.info, ErrorKind::diverged, [&] { observer.plugin->observe(now, s.bodies.attributes()); });
-    }
-  }
-  s.remove_bodies(end);
+}
 
+StepRecord Simulation::State::record(const StepSummary& summary) const {
   StepRecord record;
-  record.step = s.steps;
-  record.time = end;
+  record.step = steps;
+  record.time = time();
   record.contacts = summary.contacts;
   record.iterations = static_cast<std::uint64_t>(summary.solve.iterations);
   record.residual = summary.solve.residual;
   record.status = to_string(summary.solve.status);
   record.mean_penetration = summary.mean_penetration;
   record.max_penetration = summary.max_penetration;
-  const BodyView view = s.bodies.view();
+  const BodyView view = bodies.view();
   for (std::size_t i = 0; i < view.size(); ++i) {
     if (view.motion[i] != Motion::dynamic) continue;
     ++record.bodies;
@@ -143,10 +153,21 @@ StepRecord Simulation::step() {
   return record;
 }
 
+Simulation::Simulation(const SceneDocument& document, const PluginCatalog& catalog, const SimulationSettings& settings)
+    : state_{std::make_unique<State>(document, catalog, settings)} {}
+
+Simulation::~Simulation() = default;
+
+StepRecord Simulation::step() {
+  state_->feed_sources();
+  const StepSummary summary = state_->take_step();
+  return state_->record(summary);
+}
+
 void Simulation::finish() {
   State& s = *state_;
   const PhaseTimer::Scope scope{s.timer, Phase::observers};
-  const Observation last = s.observation(s.time());
+  const Observation last = s.observation(s.steps);
   for (const Part<Observer>& observer : s.parts.observers) {
     guarded(observer.info, ErrorKind::io, [&] { observer.plugin->finish(last); });
   }

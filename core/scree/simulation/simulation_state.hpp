@@ -15,15 +15,16 @@
 
 namespace scree {
 
-/// Poses and velocities at the beginning of a step, so that a step that fails can be undone.
-struct MotionBackup {
+/// What a step changes of the bodies, kept at its beginning, so that a step that fails can be undone.
+struct StepBackup {
   std::vector<Vec3> position;          // [m]
   std::vector<Quat> orientation;       // [1]
   std::vector<Vec3> velocity;          // [m/s]
   std::vector<Vec3> angular_velocity;  // [rad/s]
+  std::vector<std::vector<double>> attributes;
 
-  void keep(const BodyView& bodies);
-  void restore(const BodyState& bodies) const;
+  void keep(const BodyStore& bodies);
+  void restore(BodyStore& bodies) const;
 };
 
 struct Simulation::State {
@@ -44,25 +45,29 @@ struct Simulation::State {
   double end_time = 0.0;   // [s]
   double max_speed = 0.0;  // [m/s]
   std::uint64_t steps = 0;
-  bool fed_this_step = false;  // sources of the current step have emitted
-  bool failed = false;         // the last step threw; bodies are those before it
+  bool fed_this_step = false;   // sources of the current step have emitted
+  bool failed = false;          // the last step threw; bodies are those before it
   FeedRecord feed;
   std::vector<RemovedBody> removed;
   std::vector<NewBody> born;
   std::vector<char> leaving;
-  MotionBackup backup;
+  StepBackup backup;
 
   [[nodiscard]] double time() const { return static_cast<double>(steps) * time_step; }
-  [[nodiscard]] Observation observation(double at) const;
+  [[nodiscard]] Observation observation(std::uint64_t step) const;
 
   void setup_parts();
   void add_scene_bodies();
   void add(NewBody body);
   void check_overlap();
   void feed_sources();
+  StepSummary take_step();
   StepSummary advance();
   void check_motion() const;
+  void advance_fields(double end);
+  void observe();
   void remove_bodies(double at);
+  [[nodiscard]] StepRecord record(const StepSummary& summary) const;
   void restore_from(const StateReader& in);
   void save_to(StateWriter& out) const;
 };
