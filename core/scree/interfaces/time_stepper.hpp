@@ -53,6 +53,12 @@ class TimeStepper : public Plugin {
   ~TimeStepper() override;
 
   virtual void setup(SceneServices& services);
+  /// True when a step solves contact problems: the scene then needs a [ccp_solver] and, for bodies that may touch, a
+  /// [[narrow_phase]].
+  [[nodiscard]] virtual bool needs_ccp_solver() const { return false; }
+  /// True when contacts resist rolling and spinning (ContactMaterial::rolling_friction, spinning_friction). A scene that
+  /// sets them for a stepper that does not is refused.
+  [[nodiscard]] virtual bool resists_rolling() const { return false; }
 
   /// Advances the dynamic and kinematic bodies from `time` to `time + dt` [s].
   /// dt is the outer step; a scheme may divide it.

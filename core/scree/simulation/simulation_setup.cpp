@@ -5,6 +5,7 @@
 
 #include "scree/config/scene_document.hpp"
 #include "scree/simulation/simulation_state.hpp"
+#include "scree/simulation/stepper_needs.hpp"
 
 namespace scree {
 namespace {
@@ -38,7 +39,7 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   for (const Part<NarrowPhase>& narrow : parts.narrow) chain.push_back(narrow.plugin.get());
   pipeline.emplace(model.shapes, *parts.broad.plugin, std::move(chain), executor);
   host.emplace(parts, *pipeline, model.materials, executor, timer);
-  pipeline->check_support(bodies.view());
+  check_stepper_needs(parts, model, *pipeline, bodies.view());
   check_overlap();
 }
 

@@ -34,6 +34,7 @@ class Dvi final : public TimeStepper {
   explicit Dvi(const Options& options);
   static std::vector<Parameter> parameters();
 
+  [[nodiscard]] bool needs_ccp_solver() const override { return true; }
   StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) override;
   [[nodiscard]] ContactView contacts() const override;
   void save(StateWriter& out) const override;
