@@ -64,8 +64,12 @@ void read_materials(const SceneTable& root, SceneModel& model) {
   for (const SceneTable& table : root.tables("material_pair")) {
     Options o = validate(table, scene_section("material_pair").parameters, "[[material_pair]]");
     const std::vector<std::string>& names = o.texts("between");
-    model.materials.set_pair(find_material(model.materials, names[0], o, "between"),
-                             find_material(model.materials, names[1], o, "between"), contact_material(o));
+    const std::uint32_t a = find_material(model.materials, names[0], o, "between");
+    const std::uint32_t b = find_material(model.materials, names[1], o, "between");
+    if (model.materials.is_listed(a, b)) {
+      throw o.error("between", "is " + list_of(names) + ", which an earlier [[material_pair]] lists already; keep one");
+    }
+    model.materials.set_pair(a, b, contact_material(o));
     model.pair_options.push_back(std::move(o));
   }
 }
