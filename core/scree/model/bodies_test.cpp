@@ -71,5 +71,22 @@ TEST(Attributes, unknown_names_are_refused) {
   EXPECT_THROW(static_cast<void>(attributes.id("charge")), std::out_of_range);
 }
 
+// A wrong charge went unnoticed where states were compared. What only observers write does not count.
+TEST(BodyStore, the_hash_sees_attributes_but_not_what_observers_write) {
+  const auto hash = [](double charge, double seen, bool is_observed) {
+    BodyStore store;
+    AttributeId bin = 0;
+    if (is_observed) bin = store.attributes().declare({"bin", "1", "where it fell", 0.0, {"observer:bins"}});
+    const AttributeId column = store.attributes().declare({"charge", "C", "", 0.0, {"force_field:corona"}});
+    store.add({});
+    store.attributes().column(column)[0] = charge;
+    if (is_observed) store.attributes().column(bin)[0] = seen;
+    return store.hash();
+  };
+  EXPECT_NE(hash(1e-9, 0.0, false), hash(2e-9, 0.0, false));
+  EXPECT_EQ(hash(1e-9, 0.0, true), hash(1e-9, 0.0, false));
+  EXPECT_EQ(hash(1e-9, 7.0, true), hash(1e-9, 0.0, true));
+}
+
 }  // namespace
 }  // namespace scree

@@ -98,6 +98,18 @@ std::uint64_t BodyStore::hash() const {
   hash = mix(hash, std::span{velocity_});
   hash = mix(hash, std::span{angular_velocity_});
   hash = mix(hash, std::span{mass_});
+  // By name: an observer may have declared columns among the others.
+  std::vector<AttributeId> columns;
+  for (AttributeId id = 0; id < attributes_.count(); ++id) {
+    const std::vector<std::string>& writers = attributes_.info(id).writers;
+    const auto observes = [](const std::string& writer) { return writer.starts_with("observer:"); };
+    if (!std::ranges::all_of(writers, observes)) columns.push_back(id);
+  }
+  std::ranges::sort(columns, {}, [&](AttributeId id) { return attributes_.info(id).name; });
+  for (const AttributeId id : columns) {
+    hash = mix(hash, std::span{attributes_.info(id).name});
+    hash = mix(hash, attributes_.column(id));
+  }
   return hash;
 }
 

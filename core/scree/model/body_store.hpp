@@ -45,8 +45,8 @@ class BodyStore {
   /// Bodies ever added; the next id.
   [[nodiscard]] BodyId next_id() const { return next_id_; }
 
-  /// A hash of every bit of ids, poses, velocities and masses, for comparing states. Attributes are left out, so that
-  /// an observer that adds a column leaves it as it is.
+  /// A hash of every bit of ids, poses, velocities, masses and attributes, for comparing states. Columns that only
+  /// observers write are left out, so that an observer that adds one leaves it as it is.
   [[nodiscard]] std::uint64_t hash() const;
 
   void save(StateWriter& out) const;
