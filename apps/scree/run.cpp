@@ -22,7 +22,6 @@ RunRecord describe(const Simulation& simulation, const RunOptions& options) {
   for (const PartInfo& part : simulation.parts()) {
     record.plugins.push_back({part.kind, part.type, part.version, part.library});
   }
-  record.log = simulation.log();
   return record;
 }
 
@@ -122,6 +121,7 @@ void Run::write_record(int exit_code, const std::string& outcome) {
   record_.contacts = statistics_.last().contacts;
   record_.state_hash = simulation_.state_hash();
   record_.measures = statistics_.measures();
+  record_.log = simulation_.log();
   const std::vector<std::string> names = phase_names();
   for (std::size_t p = 0; p < names.size(); ++p) {
     record_.phase_seconds.emplace_back(names[p], simulation_.timer().total()[p]);

@@ -46,6 +46,7 @@ Sink::~Sink() = default;
 void Sink::setup(SceneServices&) {}
 
 Source::~Source() = default;
+std::vector<ReportTable> Source::report() const { return {}; }
 void Source::setup(SceneServices&) {}
 
 StepServices::~StepServices() = default;

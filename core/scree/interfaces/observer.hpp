@@ -8,6 +8,7 @@
 
 #include "scree/collision/contact.hpp"
 #include "scree/interfaces/plugin.hpp"
+#include "scree/interfaces/report_table.hpp"
 #include "scree/model/body.hpp"
 
 namespace scree {
@@ -34,14 +35,6 @@ struct Observation {
   double time = 0.0;                     ///< [s]
   double dt = 0.0;                       ///< outer step [s]
   std::uint64_t step = 0;                ///< steps done
-};
-
-/// Quantities that an observer reports at the end, for the terminal and
-/// run.json.
-struct ReportTable {
-  std::string title;
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
 };
 
 /// Looks once per outer step: after the fields advanced and before sinks

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scree/interfaces/plugin.hpp"
+#include "scree/interfaces/report_table.hpp"
 #include "scree/model/body_store.hpp"
 
 namespace scree {
@@ -21,6 +22,8 @@ class Source : public Plugin {
   /// Appends the bodies born at `time` [s] for a step of length `dt` [s] to
   /// `out`. `bodies` are those that exist.
   virtual void emit(const BodyView& bodies, double time, double dt, std::vector<NewBody>& out) = 0;
+  /// Tables for the end of the run.
+  [[nodiscard]] virtual std::vector<ReportTable> report() const;
 };
 
 }  // namespace scree

@@ -44,8 +44,11 @@ Observation Simulation::State::observation(std::uint64_t step) const {
 void Simulation::State::feed_sources() {
   if (fed_this_step) return;  // resumed from a checkpoint that was written in mid-step
   const PhaseTimer::Scope scope{timer, Phase::sources};
+  births.start();
   for (const Part<Source>& source : parts.sources) {
     born.clear();
+    births.expect(static_cast<BodyIndex>(bodies.size()), source.info);
+    services->serve(source.info);
     guarded(source.info, ErrorKind::diverged, [&] { source.plugin->emit(bodies.view(), time(), time_step, born); });
     for (NewBody& body : born) add(std::move(body));
     // A bed of all particles at once is not kept twice for the rest of the run.
@@ -192,6 +195,9 @@ std::uint64_t Simulation::seed() const { return static_cast<std::uint64_t>(state
 
 std::vector<ReportTable> Simulation::report() const {
   std::vector<ReportTable> tables;
+  for (const Part<Source>& source : state_->parts.sources) {
+    for (ReportTable& table : source.plugin->report()) tables.push_back(std::move(table));
+  }
   for (const Part<Observer>& observer : state_->parts.observers) {
     for (ReportTable& table : observer.plugin->report()) tables.push_back(std::move(table));
   }

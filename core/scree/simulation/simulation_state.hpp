@@ -7,6 +7,7 @@
 
 #include "scree/collision/collision_pipeline.hpp"
 #include "scree/parallel/executor.hpp"
+#include "scree/simulation/birth_check.hpp"
 #include "scree/simulation/parts.hpp"
 #include "scree/simulation/scene_model.hpp"
 #include "scree/simulation/setup_services.hpp"
@@ -39,6 +40,7 @@ struct Simulation::State {
   std::optional<SetupServices> services;
   std::optional<CollisionPipeline> pipeline;
   PhaseTimer timer;
+  BirthCheck births;
   std::optional<StepHost> host;
 
   double time_step = 0.0;  // [s]

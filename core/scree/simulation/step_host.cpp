@@ -13,15 +13,17 @@ void StepHost::forces(const BodyView& bodies, double time, WrenchView out) {
 std::span<const Contact> StepHost::contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
                                             std::span<const Vec3> free_angular_velocity, double dt) {
   const PhaseTimer::Scope scope{timer_, Phase::collision};
-  return pipeline_.find(bodies, free_velocity, free_angular_velocity, dt);
+  const std::span<const Contact> found = pipeline_.find(bodies, free_velocity, free_angular_velocity, dt);
+  if (births_ != nullptr) births_->check(bodies, found, known_);
+  return found;
 }
 
 SolveSummary StepHost::solve_ccp(const CcpProblem& problem, std::span<double> gamma) {
   const PhaseTimer::Scope scope{timer_, Phase::solver};
   if (!parts_.solver) {
-    throw Error{ErrorKind::usage,
-                parts_.stepper.info.label() +
-                    " solves a contact problem, but the scene has no [ccp_solver]; add one with `type`"};
+    throw Error{ErrorKind::usage, parts_.stepper.info.label() +
+                                      " solves a contact problem, but the scene has no [ccp_solver]; add one with "
+                                      "`type`, and let needs_ccp_solver() of the stepper tell"};
   }
   const SolveContext context{.tolerance = parts_.solver_tolerance,
                              .max_iterations = parts_.solver_iterations,

@@ -7,6 +7,7 @@
 #include "scree/ccp/active_set.hpp"
 #include "scree/collision/collision_pipeline.hpp"
 #include "scree/interfaces/time_stepper.hpp"
+#include "scree/simulation/birth_check.hpp"
 #include "scree/simulation/parts.hpp"
 #include "scree/simulation/phase_timer.hpp"
 
@@ -18,6 +19,12 @@ class StepHost final : public StepServices {
   StepHost(const Parts& parts, CollisionPipeline& pipeline, const Materials& materials, const Executor& executor,
            PhaseTimer& timer)
       : parts_{parts}, pipeline_{pipeline}, materials_{materials}, executor_{executor}, timer_{timer} {}
+
+  /// Has the first contacts of a step looked at by `births`; `known` are the bodies of the scene. Both outlive the host.
+  void watch_births(BirthCheck& births, std::span<const SceneBody> known) {
+    births_ = &births;
+    known_ = known;
+  }
 
   void forces(const BodyView& bodies, double time, WrenchView out) override;
   std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
@@ -33,6 +40,8 @@ class StepHost final : public StepServices {
   const Executor& executor_;
   PhaseTimer& timer_;
   ActiveSetSolve active_set_;
+  BirthCheck* births_ = nullptr;
+  std::span<const SceneBody> known_;
 };
 
 }  // namespace scree

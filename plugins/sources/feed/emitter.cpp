@@ -1,6 +1,8 @@
 #include "emitter.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/state/state_io.hpp"
@@ -60,8 +62,47 @@ Emitter::Emitter(const Options& options)
 void Emitter::setup(SceneServices& services) {
   mixture_.emplace(options_, services);
   shapes_ = &services.shapes();
+  services_ = &services;
+  name_ = services.part_name();
   particles_.emplace(services.random_stream("particles"));
   places_.emplace(services.random_stream("places"));
+}
+
+double Emitter::open_until(double until) const { return std::max(0.0, std::min(until, stop_) - start_); }
+
+double Emitter::backlog() const {
+  const double open = open_until(until_), born = static_cast<double>(emitted_);
+  double due = 0.0;
+  if (rate_) {
+    due = *rate_ * open * (1.0 + 1e-12);
+  } else {
+    const double mass = emitted_ > 0 ? emitted_mass_ / born : (pending_ ? pending_->body.mass : 0.0);
+    due = mass > 0.0 ? *mass_rate_ * open / mass : 0.0;
+  }
+  return std::max(0.0, std::floor(std::min(due, static_cast<double>(total_)) - born));
+}
+
+void Emitter::tell_of_backlog(double time) {
+  if (told_ || backlog() < 1.0) return;
+  const double a_second = rate_ ? *rate_ : *mass_rate_ * static_cast<double>(emitted_) / emitted_mass_;
+  // Not yet told when none of a mass_rate is born: nothing is known of its particles, and a_second is no number.
+  if (!(backlog() > a_second)) return;
+  told_ = true;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "at %.4g s %.0f particles are due and find no place, more than a second of the feed; make the outlet "
+                "larger or the particles faster",
+                time, backlog());
+  services_->log(text);
+}
+
+std::vector<ReportTable> Emitter::report() const {
+  if (postponed_ == 0) return {};
+  char waiting[40];
+  std::snprintf(waiting, sizeof waiting, "%.0f", backlog());
+  return {{"feed " + name_,
+           {"born", "steps in which one found no place", "due and not born"},
+           {{std::to_string(emitted_), std::to_string(postponed_), waiting}}}};
 }
 
 bool Emitter::is_due(const Particle& particle, double until) const {
@@ -98,6 +139,7 @@ bool Emitter::place(Particle& particle, double dt) {
 }
 
 void Emitter::emit(const BodyView& bodies, double time, double dt, std::vector<NewBody>& out) {
+  until_ = time + dt;
   if (time + dt <= start_ || emitted_ >= total_) return;
   occupancy_.clear();
   double margin = -1.0;  // what was collected reaches this far around the outlet [m]
@@ -113,6 +155,7 @@ void Emitter::emit(const BodyView& bodies, double time, double dt, std::vector<N
     }
     if (!place(*pending_, dt)) {
       ++postponed_;
+      tell_of_backlog(time);
       return;
     }
     ++emitted_;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "family.hpp"
 #include "occupancy.hpp"
@@ -21,14 +23,21 @@ class Emitter final : public Source {
 
   void setup(SceneServices& services) override;
   void emit(const BodyView& bodies, double time, double dt, std::vector<NewBody>& out) override;
+  [[nodiscard]] std::vector<ReportTable> report() const override;
   void save(StateWriter& out) const override;
   void load(const StateReader& in) override;
 
   /// Particles born so far, and how often one had to wait for a place.
   [[nodiscard]] std::uint64_t emitted() const { return emitted_; }
   [[nodiscard]] std::uint64_t postponed() const { return postponed_; }
+  /// Particles that were due at the end of the last step and are not born; of a mass_rate, by the mean mass so far.
+  [[nodiscard]] double backlog() const;
 
  private:
+  /// Time since the start of the feed, at `until` [s].
+  [[nodiscard]] double open_until(double until) const;
+  /// Says once that the feed is more than a second behind.
+  void tell_of_backlog(double time);
   [[nodiscard]] bool is_due(const Particle& particle, double until) const;
   /// The box of all places of birth in a step of `dt` [s].
   [[nodiscard]] Aabb outlet(double dt) const;
@@ -48,6 +57,8 @@ class Emitter final : public Source {
 
   std::optional<Mixture> mixture_;
   ShapeSet* shapes_ = nullptr;
+  const SceneServices* services_ = nullptr;
+  std::string name_;
   std::optional<RandomStream> particles_;  // which particle comes next
   std::optional<RandomStream> places_;     // where it is born
   Occupancy occupancy_;
@@ -55,6 +66,8 @@ class Emitter final : public Source {
   std::uint64_t emitted_ = 0;
   double emitted_mass_ = 0.0;  // [kg]
   std::uint64_t postponed_ = 0;
+  double until_ = 0.0;                 // end of the last step [s]
+  bool told_ = false;                  // of the backlog
   std::optional<Particle> pending_;    // drawn, but without a place so far
   std::uint64_t pending_counter_ = 0;  // of particles_ before it was drawn, so that it can be drawn again
 };

@@ -1,5 +1,6 @@
 #include "emitter.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scree/base/error.hpp"
@@ -71,6 +72,25 @@ TEST(emitter, mass_rate_is_met_to_half_a_particle) {
     for (const NewBody& body : scene.emit(*emitter, step)) sum += body.mass;
     ASSERT_NEAR(sum, 0.01 * (step + 1) * kStep, 0.5 * largest * (1.0 + 1e-9));
   }
+}
+
+// A steel plug on the outlet: nothing is born, which used to be told nowhere.
+TEST(emitter, tells_what_is_due_and_not_born) {
+  FeedScene scene;
+  const auto emitter = scene.make<Emitter>(
+      "rate = 100\n" + kNarrow + "families = [{name = 'g', material = 'copper', size = '20 mm', shape = 'sphere'}]\n");
+  EXPECT_TRUE(emitter->report().empty());
+  // One ball of 20 mm finds a place on 30 mm x 30 mm; the next does not, wherever it is put.
+  for (int step = 0; step < 3000; ++step) scene.emit(*emitter, step);
+  const auto left = static_cast<double>(300 - emitter->emitted());  // 100 a second for 3 s
+  EXPECT_GT(left, 290.0);
+  EXPECT_EQ(emitter->backlog(), left);
+  ASSERT_EQ(emitter->report().size(), 1U);
+  EXPECT_EQ(emitter->report()[0].rows[0][2], std::to_string(300 - emitter->emitted()));
+  const auto tells = [](const std::string& line) {
+    return line.find("are due and find no place") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(scene.services.log_lines(), tells), 1);
 }
 
 TEST(emitter, begins_and_ends_when_told) {
