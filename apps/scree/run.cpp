@@ -39,8 +39,14 @@ Run::Run(Simulation& simulation, const RunOptions& options)
 int Run::to_the_end() {
   const InterruptWatch watch;
   try {
+    const bool had_nothing_to_do = simulation_.is_done();
     const bool done = steps_to_the_end(watch);
-    const std::string outcome = fmt::format("{} at {:.6g} s", done ? "done" : "interrupted", simulation_.time());
+    const std::string outcome =
+        had_nothing_to_do ? fmt::format(
+                                "nothing to do: the checkpoint is at {:.6g} s, and the run ends at {:.6g} s; a later "
+                                "--end-time continues it",
+                                simulation_.time(), simulation_.end_time())
+                          : fmt::format("{} at {:.6g} s", done ? "done" : "interrupted", simulation_.time());
     const int exit_code = done ? 0 : kInterrupted;
     finish(exit_code, outcome);
     print_end(outcome);

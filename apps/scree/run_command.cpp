@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 /// "5", "5 s", "200 ms" in seconds. @throws Error (usage).
 double parse_end_time(const std::string& text) {
+  if (text.empty()) throw Error{ErrorKind::usage, {"--end-time", 0, 0}, "'' is not a time, for example '5 s'"};
   try {
     // As in a scene, a plain number is in SI.
     double seconds = 0.0;
@@ -86,7 +87,8 @@ int run(RunOptions options) {
   return Run{*simulation, options}.to_the_end();
 }
 
-void add_options(CLI::App& command, RunOptions& options, std::string& end_time) {
+/// The option --end-time: given but empty is no end time.
+CLI::Option* add_options(CLI::App& command, RunOptions& options, std::string& end_time) {
   command.add_option("scene", options.scene, "The scene")->required()->type_name("SCENE.toml");
   command.add_option("-o,--output", options.output, "Folder for the results [NAME.scree-results]")->type_name("DIR");
   command
@@ -96,7 +98,8 @@ void add_options(CLI::App& command, RunOptions& options, std::string& end_time) 
   command.add_option("--threads", options.threads, "Threads; the results do not depend on it [all cores]")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  command.add_option("--end-time", end_time, "Simulate until this time instead of the scene's")->type_name("T");
+  CLI::Option* const end_time_option =
+      command.add_option("--end-time", end_time, "Simulate until this time instead of the scene's")->type_name("T");
   command.add_option("--resume", options.resume, "Continue from a checkpoint of this scene")->type_name("FILE");
   command.add_flag("--overwrite", options.overwrite, "Replace the results of an older run in the folder");
   command.add_flag("--quiet", options.quiet, "No progress");
@@ -104,6 +107,7 @@ void add_options(CLI::App& command, RunOptions& options, std::string& end_time) 
   command.add_option("--plugin-dir", options.plugin_dirs, "Look for plugins in this folder first (may be repeated)")
       ->type_name("DIR")
       ->allow_extra_args(false);
+  return end_time_option;
 }
 
 }  // namespace
@@ -112,9 +116,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RunOptions>();
   const auto end_time = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its results into a folder");
-  add_options(*command, *options, *end_time);
-  command->final_callback([options, end_time, &exit_code] {
-    if (!end_time->empty()) options->end_time = parse_end_time(*end_time);
+  const CLI::Option* const end_time_option = add_options(*command, *options, *end_time);
+  command->final_callback([options, end_time, end_time_option, &exit_code] {
+    if (end_time_option->count() > 0) options->end_time = parse_end_time(*end_time);
     exit_code = run(*options);
   });
 }

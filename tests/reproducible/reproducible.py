@@ -101,6 +101,13 @@ class Reproducible(unittest.TestCase):
         self.assertIn("was written by another scene", result.stderr)
         self.assertFalse((self.work / "foreign").exists())
 
+    def test_resuming_at_or_past_the_end_says_so(self):
+        for end in ("0.2 s", "0.1 s"):
+            result = subprocess.run([SCREE, "run", "scene.toml", "-o", f"past {end}", "--quiet", "--end-time", end, "--resume",
+                                     "reference/checkpoint.h5"], cwd=self.work, capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"nothing to do: the checkpoint is at 0.2 s, and the run ends at {end}", result.stdout)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

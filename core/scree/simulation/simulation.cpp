@@ -180,8 +180,7 @@ double Simulation::time() const { return state_->time(); }
 double Simulation::end_time() const { return state_->end_time; }
 double Simulation::time_step() const { return state_->time_step; }
 std::uint64_t Simulation::steps() const { return state_->steps; }
-// Half a step of slack: 5 s at 1 ms are 5000 steps, whatever 5000 * 0.001 rounds to.
-bool Simulation::is_done() const { return state_->time() > state_->end_time - 0.5 * state_->time_step; }
+bool Simulation::is_done() const { return state_->steps >= state_->last_step; }
 std::uint64_t Simulation::state_hash() const { return state_->bodies.hash(); }
 const BodyStore& Simulation::bodies() const { return state_->bodies; }
 const Materials& Simulation::materials() const { return state_->model.materials; }

@@ -55,6 +55,7 @@ class Simulation {
   [[nodiscard]] double end_time() const;   ///< [s]
   [[nodiscard]] double time_step() const;  ///< [s]
   [[nodiscard]] std::uint64_t steps() const;
+  /// True after the first step that ends at or after end_time(), to a billionth of a step.
   [[nodiscard]] bool is_done() const;
   [[nodiscard]] std::uint64_t state_hash() const;
   [[nodiscard]] const BodyStore& bodies() const;
@@ -63,7 +64,7 @@ class Simulation {
   [[nodiscard]] PhaseTimer& timer();
   /// Bodies taken out in the last step.
   [[nodiscard]] const std::vector<RemovedBody>& removed() const;
-  /// Tables of the observers, after finish().
+  /// Tables of the sources and observers, after finish().
   [[nodiscard]] std::vector<ReportTable> report() const;
 
   /// Steps between rows of steps.csv, and simulated time between checkpoints [s], 0 for none.
@@ -71,7 +72,7 @@ class Simulation {
   [[nodiscard]] double checkpoint_interval() const;
   /// All parts, for run.json.
   [[nodiscard]] std::vector<PartInfo> parts() const;
-  /// Lines that parts logged at setup.
+  /// Lines that parts logged, most of them at setup.
   [[nodiscard]] const std::vector<std::string>& log() const;
   /// The scene with every default filled in, as JSON.
   [[nodiscard]] std::string resolved_scene() const;

@@ -28,6 +28,7 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   time_step = model.simulation.number("time_step");
   end_time = wanted.end_time.value_or(model.simulation.number("end_time"));
   max_speed = model.simulation.number("max_speed");
+  count_steps();
   feed.fed.resize(model.materials.size());
   feed.removed.resize(model.materials.size());
 
@@ -42,6 +43,21 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   if (!model.simulation.boolean("allow_overlap")) host->watch_births(births, model.bodies);
   check_stepper_needs(parts, model, *pipeline, bodies.view());
   check_overlap();
+}
+
+void Simulation::State::count_steps() {
+  constexpr double kMostSteps = 1e12;
+  const auto refuse = [&](const char* sentence) {
+    char text[160];
+    std::snprintf(text, sizeof text, "is %.6g s, %s; the run ends at %.6g s", time_step, sentence, end_time);
+    throw model.simulation.error("time_step", text);
+  };
+  const double wanted = end_time / time_step;
+  if (wanted < 1.0 - 1e-9) refuse("longer than the whole run");
+  if (!(wanted <= kMostSteps)) refuse("so short that the run would take more than 1e12 steps");
+  // The first step that ends at or after the end, to a billionth of a step and the rounding of the quotient: 5 s at
+  // 1 ms are 5000 steps.
+  last_step = static_cast<std::uint64_t>(std::ceil(wanted - std::max(1e-9, 1e-15 * wanted)));
 }
 
 void Simulation::State::setup_parts() {

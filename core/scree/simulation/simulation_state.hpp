@@ -47,6 +47,7 @@ struct Simulation::State {
   double end_time = 0.0;   // [s]
   double max_speed = 0.0;  // [m/s]
   std::uint64_t steps = 0;
+  std::uint64_t last_step = 0;  // steps after which the run is done
   bool fed_this_step = false;   // sources of the current step have emitted
   bool failed = false;          // the last step threw; bodies are those before it
   FeedRecord feed;
@@ -58,6 +59,7 @@ struct Simulation::State {
   [[nodiscard]] double time() const { return static_cast<double>(steps) * time_step; }
   [[nodiscard]] Observation observation(std::uint64_t step) const;
 
+  void count_steps();
   void setup_parts();
   void add_scene_bodies();
   void add(NewBody body);
