@@ -24,6 +24,7 @@ void check(const CheckOptions& options) {
   const SceneDocument scene = SceneDocument::load(scene_file(options.scene), options.overrides);
   const PluginHost host = find_scene_plugins(scene, options.plugin_dirs);
   const Simulation simulation{scene, host, {}};
+  for (const std::string& sentence : simulation.warnings()) warn(sentence);
   if (options.resolved) {
     say("{}\n", simulation.resolved_scene());
     return;

@@ -39,6 +39,7 @@ Run::Run(Simulation& simulation, const RunOptions& options)
 int Run::to_the_end() {
   const InterruptWatch watch;
   try {
+    for (const std::string& sentence : simulation_.warnings()) warn(sentence);
     const bool had_nothing_to_do = simulation_.is_done();
     const bool done = steps_to_the_end(watch);
     const std::string outcome =

@@ -1,4 +1,4 @@
-// Text on standard output.
+// Text on standard output, warnings on standard error.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,5 +16,8 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
   std::fwrite(text.data(), 1, text.size(), stdout);
 }
+
+/// Prints what is no reason to stop.
+inline void warn(const std::string& sentence) { std::fprintf(stderr, "scree: warning: %s\n", sentence.c_str()); }
 
 }  // namespace scree

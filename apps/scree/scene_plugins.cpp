@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "say.hpp"
 #include "scree/config/scene_document.hpp"
 #include "scree/config/validate.hpp"
 #include "scree/host/search_path.hpp"
@@ -35,7 +36,7 @@ std::vector<NamedPlace> places_of_command_line(const std::vector<std::string>& f
 PluginHost find(const std::vector<NamedPlace>& of_scene, const std::vector<std::string>& plugin_dirs) {
   PluginHost host;
   find_plugins(host, of_scene, places_of_command_line(plugin_dirs));
-  for (const std::string& sentence : host.refused()) std::fprintf(stderr, "scree: warning: %s\n", sentence.c_str());
+  for (const std::string& sentence : host.refused()) warn(sentence);
   return host;
 }
 

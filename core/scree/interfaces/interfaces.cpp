@@ -54,6 +54,7 @@ TimeStepper::~TimeStepper() = default;
 void TimeStepper::setup(SceneServices&) {}
 
 SceneServices::~SceneServices() = default;
+void SceneServices::show_all_attributes() {}
 PluginCatalog::~PluginCatalog() = default;
 
 std::string_view to_string(SolveStatus status) {

@@ -53,6 +53,9 @@ class SceneServices {
   /// used as initial value.
   virtual AttributeId require_attribute(std::string_view name, std::string_view unit, std::string_view help) = 0;
   virtual AttributeId optional_attribute(const AttributeInfo& info) = 0;
+  /// Declares that the calling part shows every column, whatever its name: a column that no other part reads is then of
+  /// use.
+  virtual void show_all_attributes();
 
   /// A random stream of the calling part: the seed of the scene and the part's
   /// own name and `purpose`.

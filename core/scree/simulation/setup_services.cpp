@@ -67,6 +67,32 @@ void SetupServices::check_attributes() {
   }
 }
 
+SourceLocation SetupServices::place_of(const std::string& column) const {
+  const auto gives = [&](const Options& options) {
+    return options.has("attributes") && std::ranges::count(options.table("attributes").names(), column) > 0;
+  };
+  for (const NamedOptions& material : context_.model.material_options) {
+    if (gives(material.options)) return material.options.table("attributes").location(column);
+  }
+  for (const SceneBody& body : context_.model.bodies) {
+    if (gives(body.options)) return body.options.table("attributes").location(column);
+  }
+  return {};
+}
+
+void SetupServices::warn_of_unread() const {
+  const Attributes& columns = context_.bodies.attributes();
+  for (AttributeId id = 0; id < columns.count(); ++id) {
+    const auto& [name, unit, help, initial, writers] = columns.info(id);
+    if (writers.empty() || std::ranges::count(used_, name) > 0) continue;
+    const std::string nearest = suggestion(name, used_);
+    if (shows_all_ && nearest.empty()) continue;  // wanted for its picture
+    const std::string sentence = "the body attribute '" + name + "', given by " + writers[0] + ", is read by no part";
+    context_.warnings.emplace_back(Error{ErrorKind::usage, place_of(name), sentence + nearest}.what());
+    context_.log.push_back("warning: " + context_.warnings.back());
+  }
+}
+
 void SetupServices::check_body(const NewBody& body, std::span<const std::pair<AttributeId, double>> values) const {
   if (body.motion != Motion::dynamic) return;
   for (const auto& [id, reader] : given_) {
@@ -123,17 +149,20 @@ AttributeId SetupServices::provide_attribute(const AttributeInfo& info) {
                       "'; only one force field may"};
     }
   }
+  if (is_running_part(part_->label())) used_.push_back(info.name);
   AttributeInfo signed_info = info;
   signed_info.writers = {part_->label()};
   return columns.declare(signed_info);
 }
 
 AttributeId SetupServices::require_attribute(std::string_view name, std::string_view unit, std::string_view help) {
+  used_.emplace_back(name);
   readers_.push_back({part_->label(), std::string{name}, std::string{help}, part_->where});
   return context_.bodies.attributes().declare({std::string{name}, std::string{unit}, std::string{help}, 0.0, {}});
 }
 
 AttributeId SetupServices::optional_attribute(const AttributeInfo& info) {
+  used_.push_back(info.name);
   return context_.bodies.attributes().declare(info);
 }
 

@@ -21,6 +21,7 @@ struct SetupContext {
   double time_step;  ///< [s]
   double end_time;   ///< [s]
   std::vector<std::string>& log;
+  std::vector<std::string>& warnings;
 };
 
 /// Answers one part at a time.
@@ -34,6 +35,8 @@ class SetupServices final : public SceneServices {
   void provide_from_scene();
   /// Refuses a simulation in which a part reads a column that nothing provides. @throws Error (usage).
   void check_attributes();
+  /// Warns of columns that materials, bodies or sources give and no part reads: a misspelt name, most likely.
+  void warn_of_unread() const;
   /// Refuses a body that lacks a column which a part reads and no part writes. `values` are those that the body and its
   /// material give. @throws Error (usage) naming the body, the column and its reader.
   void check_body(const NewBody& body, std::span<const std::pair<AttributeId, double>> values) const;
@@ -47,6 +50,7 @@ class SetupServices final : public SceneServices {
   AttributeId provide_attribute(const AttributeInfo& info) override;
   AttributeId require_attribute(std::string_view name, std::string_view unit, std::string_view help) override;
   AttributeId optional_attribute(const AttributeInfo& info) override;
+  void show_all_attributes() override { shows_all_ = true; }
   [[nodiscard]] RandomStream random_stream(std::string_view purpose) const override;
   [[nodiscard]] const Executor& executor() const override { return context_.executor; }
   [[nodiscard]] double time_step() const override { return context_.time_step; }
@@ -57,6 +61,8 @@ class SetupServices final : public SceneServices {
  private:
   // Every quantity in an `attributes` table has the dimension of its column.
   void check_attribute_units() const;
+  // Where the scene gives a value for a column; nowhere when a source does.
+  [[nodiscard]] SourceLocation place_of(const std::string& column) const;
 
   struct Reader {
     std::string part;
@@ -67,6 +73,8 @@ class SetupServices final : public SceneServices {
   SetupContext context_;
   const PartInfo* part_ = nullptr;
   std::vector<Reader> readers_;
+  std::vector<std::string> used_;  // columns that a part reads, or writes while the simulation runs
+  bool shows_all_ = false;         // a part shows every column
   std::vector<std::pair<AttributeId, std::size_t>> given_;  // columns that bodies have to bring, and who reads them
 };
 

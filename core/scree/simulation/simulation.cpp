@@ -188,6 +188,7 @@ const FeedRecord& Simulation::feed() const { return state_->feed; }
 PhaseTimer& Simulation::timer() { return state_->timer; }
 const std::vector<RemovedBody>& Simulation::removed() const { return state_->removed; }
 const std::vector<std::string>& Simulation::log() const { return state_->log; }
+const std::vector<std::string>& Simulation::warnings() const { return state_->warnings; }
 std::int64_t Simulation::steps_every() const { return state_->model.output.integer("steps_every"); }
 double Simulation::checkpoint_interval() const { return state_->model.output.number("checkpoint_interval"); }
 std::uint64_t Simulation::seed() const { return static_cast<std::uint64_t>(state_->model.simulation.integer("seed")); }

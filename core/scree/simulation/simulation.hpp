@@ -74,6 +74,8 @@ class Simulation {
   [[nodiscard]] std::vector<PartInfo> parts() const;
   /// Lines that parts logged, most of them at setup.
   [[nodiscard]] const std::vector<std::string>& log() const;
+  /// What looks like a mistake of the scene, but does not keep it from running. Also in log().
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
   /// The scene with every default filled in, as JSON.
   [[nodiscard]] std::string resolved_scene() const;
   /// A hash of what decides the motion: the resolved scene without end time, output and observers.

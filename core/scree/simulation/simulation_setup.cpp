@@ -32,7 +32,7 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   feed.fed.resize(model.materials.size());
   feed.removed.resize(model.materials.size());
 
-  services.emplace(SetupContext{model, bodies, parts, executor, time_step, end_time, log});
+  services.emplace(SetupContext{model, bodies, parts, executor, time_step, end_time, log, warnings});
   setup_parts();
   add_scene_bodies();
 
@@ -77,6 +77,7 @@ void Simulation::State::setup_parts() {
   // After the parts, so that a column has the unit and the initial value that its reader states.
   services->provide_from_scene();
   services->check_attributes();
+  services->warn_of_unread();
 }
 
 void Simulation::State::add(NewBody body) {

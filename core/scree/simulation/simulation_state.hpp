@@ -37,6 +37,7 @@ struct Simulation::State {
   Parts parts;
   BodyStore bodies;
   std::vector<std::string> log;
+  std::vector<std::string> warnings;
   std::optional<SetupServices> services;
   std::optional<CollisionPipeline> pipeline;
   PhaseTimer timer;

@@ -223,6 +223,20 @@ TEST(Simulation, a_body_without_an_attribute_that_is_read_is_refused) {
   EXPECT_NE(text.find("material 'stone' has no value for the attribute 'ballast'"), std::string::npos) << text;
 }
 
+TEST(Simulation, an_attribute_that_no_part_reads_is_warned_of) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(
+      scene("[[force_field]]\ntype = 'weigher'\n[[body]]\nshape = 'ball'\nmaterial = 'stone'\nmotion = 'dynamic'\n"
+            "attributes = { ballast = 2, balast = 3 }\n"));
+  const Simulation simulation{document, catalog, {}};
+  ASSERT_EQ(simulation.warnings().size(), 1u);
+  EXPECT_NE(simulation.warnings()[0].find("'balast', given by body '', is read by no part; did you mean 'ballast'?"),
+            std::string::npos)
+      << simulation.warnings()[0];
+  ASSERT_FALSE(simulation.log().empty());
+  EXPECT_EQ(simulation.log().back(), "warning: " + simulation.warnings()[0]);
+}
+
 TEST(Simulation, the_resolved_scene_shows_defaults_and_pairs) {
   const Catalog catalog;
   const SceneDocument document = SceneDocument::parse(scene(kFedScene));

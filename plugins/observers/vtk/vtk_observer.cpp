@@ -51,6 +51,7 @@ void VtkObserver::setup(SceneServices& services, const std::filesystem::path& re
   const auto stem = [name = services.part_name()](const char* plain) { return result_stem(plain, "vtk", name); };
   stems_ = {stem("run"), stem("particles"), stem("walls"), stem("spheres")};
   results_ = results;
+  services.show_all_attributes();
   shapes_ = &services.shapes();
   materials_ = &services.materials();
   steps_between_ = static_cast<std::uint64_t>(std::max(1.0, std::round(interval_ / services.time_step())));
