@@ -86,7 +86,8 @@ std::vector<SceneSection> model_sections() {
         Parameter::number("time_step", "s", "outer step").above(0.0).by_default(1e-3),
         Parameter::integer("seed", "of all random streams").at_least(0).by_default(1),
         Parameter::number("max_speed", "m/s", "a faster body ends the run as diverged").above(0.0).by_default(1e4),
-        Parameter::boolean("allow_overlap", "accept bodies of the scene that overlap at the start").by_default(false)}},
+        Parameter::boolean("allow_overlap", "accept bodies that overlap at the start or when they are born")
+            .by_default(false)}},
       {"contacts",
        SectionForm::single,
        "What holds between materials that are not listed as a pair.",

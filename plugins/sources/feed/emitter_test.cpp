@@ -74,13 +74,13 @@ TEST(emitter, mass_rate_is_met_to_half_a_particle) {
   }
 }
 
-// A steel plug on the outlet: nothing is born, which used to be told nowhere.
+// Balls that stay on the outlet block it, which used to be told nowhere.
 TEST(emitter, tells_what_is_due_and_not_born) {
   FeedScene scene;
   const auto emitter = scene.make<Emitter>(
       "rate = 100\n" + kNarrow + "families = [{name = 'g', material = 'copper', size = '20 mm', shape = 'sphere'}]\n");
   EXPECT_TRUE(emitter->report().empty());
-  // One ball of 20 mm finds a place on 30 mm x 30 mm; the next does not, wherever it is put.
+  // At most five balls of 20 mm have room on 30 mm x 30 mm: one in each corner and one between them.
   for (int step = 0; step < 3000; ++step) scene.emit(*emitter, step);
   const auto left = static_cast<double>(300 - emitter->emitted());  // 100 a second for 3 s
   EXPECT_GT(left, 290.0);
