@@ -61,6 +61,8 @@ void BedSource::setup(SceneServices& services) {
   try {
     bed_ = read_bed(options_.path("file"), limit);
   } catch (const Error& problem) {
+    // A bad row has a place of its own, in the bed file.
+    if (problem.kind() != ErrorKind::io) throw;
     throw Error{problem.kind(), options_.location("file"), problem.what()};
   }
   double mass = 0.0, least = std::numeric_limits<double>::infinity(), largest = 0.0;
