@@ -33,6 +33,7 @@ Run::Run(Simulation& simulation, const RunOptions& options)
       step_log_{options.output / "steps.csv", phase_names()},
       removed_log_{options.output / "removed.csv", simulation.materials()},
       progress_{options.quiet, simulation.time(), simulation.end_time()},
+      recording_{simulation, options.record_ccp, options.output, "--record-ccp"},
       last_checkpoint_{simulation.time()},
       record_{describe(simulation, options)} {}
 
@@ -63,6 +64,7 @@ int Run::to_the_end() {
 bool Run::steps_to_the_end(const InterruptWatch& watch) {
   while (!simulation_.is_done()) {
     if (watch.interrupted()) return false;
+    recording_.before_step(simulation_);
     const StepRecord step = simulation_.step();
     const PhaseTimer::Scope scope{simulation_.timer(), Phase::output};
     after_step(step);
@@ -81,6 +83,18 @@ void Run::after_step(const StepRecord& step) {
     save_checkpoint();
   }
   progress_.update(progress_state(step));
+}
+
+void Run::report_recording() const {
+  for (const std::uint64_t step : recording_.steps()) {
+    if (step > simulation_.steps()) continue;
+    const std::string file = recording_.file(step).string();
+    if (std::filesystem::exists(file)) {
+      say("contact problem of step {}: {}\n", step, file);
+    } else {
+      say("step {} had no contacts: there is no contact problem to record\n", step);
+    }
+  }
 }
 
 void Run::save_checkpoint() {
@@ -142,6 +156,7 @@ void Run::print_end(const std::string& outcome) const {
   for (const ReportTable& table : record_.tables) say("\n{}", to_text(table));
   say("\n{}", to_text(work_table(statistics_, simulation_.timer())));
   if (options_.profile) say("\n{}", to_text(phase_table(simulation_.timer())));
+  report_recording();
   say("\n{}, {} steps in {}, state {}; results in {}\n", outcome, record_.steps, duration_text(record_.wall_time),
       to_hex(record_.state_hash), options_.output.string());
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "ccp_recording.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "run_options.hpp"
@@ -17,7 +18,7 @@ namespace scree {
 /// One run of a simulation into its result folder.
 class Run {
  public:
-  /// @throws Error (io) when the logs cannot be created.
+  /// @throws Error (io) when the logs cannot be created, (usage) when problems are to be kept of steps that do not come.
   Run(Simulation& simulation, const RunOptions& options);
 
   /// Steps until the end or an interrupt, writes everything that is left, prints the tables. Returns the exit code, 0
@@ -30,6 +31,7 @@ class Run {
   bool steps_to_the_end(const InterruptWatch& watch);
   void after_step(const StepRecord& step);
   void save_checkpoint();
+  void report_recording() const;
   void finish(int exit_code, const std::string& outcome);
   bool finish_failed(const Error& failure);
   void write_record(int exit_code, const std::string& outcome);
@@ -43,6 +45,7 @@ class Run {
   StepLog step_log_;
   RemovedLog removed_log_;
   Progress progress_;
+  CcpRecording recording_;
   RunStatistics statistics_;
   double last_checkpoint_;  // simulated time [s]
   RunRecord record_;

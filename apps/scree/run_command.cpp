@@ -1,15 +1,14 @@
 // scree run SCENE.toml: from the arguments to a run.
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <thread>
 
+#include "ccp_recording.hpp"
 #include "commands.hpp"
+#include "parse_time.hpp"
 #include "run.hpp"
 #include "scene_plugins.hpp"
 #include "scree/config/scene_document.hpp"
-#include "scree/config/units.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/simulation/simulation.hpp"
 
@@ -17,21 +16,6 @@ namespace scree {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "5", "5 s", "200 ms" in seconds. @throws Error (usage).
-double parse_end_time(const std::string& text) {
-  if (text.empty()) throw Error{ErrorKind::usage, {"--end-time", 0, 0}, "'' is not a time, for example '5 s'"};
-  try {
-    // As in a scene, a plain number is in SI.
-    double seconds = 0.0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-    if (problem != std::errc{} || end != text.data() + text.size()) seconds = parse_quantity(text, "s");
-    if (seconds > 0.0 && std::isfinite(seconds)) return seconds;
-  } catch (const Error& problem) {
-    throw Error{problem.kind(), {"--end-time", 0, 0}, problem.what()};
-  }
-  throw Error{ErrorKind::usage, {"--end-time", 0, 0}, "'" + text + "' is not above 0 s"};
-}
 
 /// NAME.scree-results in the working directory; NAME is the scene's file, or its folder for a scene.toml.
 fs::path default_output(const fs::path& scene) {
@@ -63,11 +47,18 @@ std::unique_ptr<Simulation> make_simulation(const SceneDocument& scene, const Pl
   settings.threads = options.threads;
   settings.end_time = options.end_time;
   const bool is_new = !fs::exists(options.output);
-  if (!is_new && options.overwrite) Simulation{scene, host, settings};
+  const auto check_recording = [&](const Simulation& simulation) {
+    CcpRecording{simulation, options.record_ccp, options.output, "--record-ccp"};
+  };
+  if (!is_new && options.overwrite) {
+    const Simulation trial{scene, host, settings};
+    if (options.resume.empty()) check_recording(trial);
+  }
   settings.results = ResultFolder::create(options.output, options.overwrite).path();
   try {
     auto simulation = std::make_unique<Simulation>(scene, host, settings);
     if (!options.resume.empty()) simulation->resume(options.resume);
+    check_recording(*simulation);
     return simulation;
   } catch (...) {
     std::error_code ignored;
@@ -87,8 +78,14 @@ int run(RunOptions options) {
   return Run{*simulation, options}.to_the_end();
 }
 
+/// Words of the command line that are more than text.
+struct RunWords {
+  std::string end_time;
+  std::vector<std::string> record_ccp;
+};
+
 /// The option --end-time: given but empty is no end time.
-CLI::Option* add_options(CLI::App& command, RunOptions& options, std::string& end_time) {
+CLI::Option* add_options(CLI::App& command, RunOptions& options, RunWords& words) {
   command.add_option("scene", options.scene, "The scene")->required()->type_name("SCENE.toml");
   command.add_option("-o,--output", options.output, "Folder for the results [NAME.scree-results]")->type_name("DIR");
   command
@@ -99,8 +96,14 @@ CLI::Option* add_options(CLI::App& command, RunOptions& options, std::string& en
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   CLI::Option* const end_time_option =
-      command.add_option("--end-time", end_time, "Simulate until this time instead of the scene's")->type_name("T");
+      command.add_option("--end-time", words.end_time, "Simulate until this time instead of the scene's")
+          ->type_name("T");
   command.add_option("--resume", options.resume, "Continue from a checkpoint of this scene")->type_name("FILE");
+  command
+      .add_option("--record-ccp", words.record_ccp,
+                  "Keep the contact problems of the steps at these times as ccp_STEP.h5")
+      ->type_name("t=T,...")
+      ->allow_extra_args(false);
   command.add_flag("--overwrite", options.overwrite, "Replace the results of an older run in the folder");
   command.add_flag("--quiet", options.quiet, "No progress");
   command.add_flag("--profile", options.profile, "Print where the time went");
@@ -114,11 +117,12 @@ CLI::Option* add_options(CLI::App& command, RunOptions& options, std::string& en
 
 void add_run_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<RunOptions>();
-  const auto end_time = std::make_shared<std::string>();
+  const auto words = std::make_shared<RunWords>();
   CLI::App* command = app.add_subcommand("run", "Run a scene and write its results into a folder");
-  const CLI::Option* const end_time_option = add_options(*command, *options, *end_time);
-  command->final_callback([options, end_time, end_time_option, &exit_code] {
-    if (end_time_option->count() > 0) options->end_time = parse_end_time(*end_time);
+  const CLI::Option* const end_time_option = add_options(*command, *options, *words);
+  command->final_callback([options, words, end_time_option, &exit_code] {
+    if (end_time_option->count() > 0) options->end_time = parse_time(words->end_time, "--end-time");
+    options->record_ccp = parse_times(words->record_ccp, "--record-ccp");
     exit_code = run(*options);
   });
 }

@@ -17,6 +17,7 @@ struct RunOptions {
   int threads = 0;                       ///< 0: as many as the machine has
   std::optional<double> end_time;        ///< [s]
   std::filesystem::path resume;          ///< checkpoint to continue from; empty for none
+  std::vector<double> record_ccp;        ///< times whose contact problems are kept [s]
   bool overwrite = false;
   bool quiet = false;
   bool profile = false;

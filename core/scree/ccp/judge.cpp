@@ -54,6 +54,28 @@ double CcpJudge::residual(const CcpProblem& problem, std::span<const double> gam
   return ccp_residual(delassus_, gamma, w_, partial_);
 }
 
+CcpFigures CcpJudge::figures(const CcpProblem& problem, std::span<const double> gamma, const Executor* executor) {
+  CcpFigures out;
+  out.residual = residual(problem, gamma, executor);
+  u_.resize(problem.rows());
+  delassus_.apply(gamma, u_);
+  double associated = 0.0, coulomb = 0.0, scale = 0.0;  // squares
+  for (std::size_t i = 0; i < problem.blocks(); ++i) {
+    const double mu = problem.contacts[i].friction;
+    const Vec3 g = load_block(gamma, i), r = load_block(problem.r, i);
+    Vec3 u = load_block(u_, i) + r;
+    out.objective += 0.5 * dot(g, u + r);
+    associated += squared_norm(g - project_cone3(g - u, mu));
+    u.x += mu * std::hypot(u.y, u.z);
+    coulomb += squared_norm(g - project_cone3(g - u, mu));
+    scale += squared_norm(r);
+  }
+  const double length = scale > 0.0 ? std::sqrt(scale) : 1.0;
+  out.relative_residual = std::sqrt(associated) / length;
+  out.coulomb_error = std::sqrt(coulomb) / length;
+  return out;
+}
+
 double ccp_residual(const CcpProblem& problem, std::span<const double> gamma, const Executor* executor) {
   CcpJudge judge;
   return judge.residual(problem, gamma, executor);

@@ -122,6 +122,7 @@ StepSummary Simulation::State::take_step() {
     const double end = static_cast<double>(steps + 1) * time_step;
     const StepSummary summary = advance();
     check_motion();
+    host->tap_next({});
     advance_fields(end);
     observe();
     remove_bodies(end);

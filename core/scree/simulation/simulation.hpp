@@ -82,6 +82,10 @@ class Simulation {
   [[nodiscard]] std::string scene_hash() const;
   [[nodiscard]] std::uint64_t seed() const;
 
+  /// Puts the contact problem of the next step into `file`, as the time stepper poses it, with its guess
+  /// (scree/ccp/ccp_file.hpp). A step that solves several, for exact Coulomb friction, gives its first; one without
+  /// contacts gives none. @throws Error (usage) when the scene has no contact solver.
+  void record_problem(const std::filesystem::path& file);
   /// Writes a checkpoint. @throws Error (io).
   void save(const std::filesystem::path& file) const;
   /// Continues from a checkpoint of the same scene. @throws Error (io, usage).

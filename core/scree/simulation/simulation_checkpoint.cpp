@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scree/ccp/ccp_file.hpp"
 #include "scree/config/resolved.hpp"
 #include "scree/results/run_record.hpp"
 #include "scree/simulation/simulation_state.hpp"
@@ -205,6 +206,22 @@ void Simulation::save(const std::filesystem::path& file) const {
   CheckpointWriter writer{{scene_hash(), SCREE_VERSION}};
   state_->save_to(writer.root());
   writer.save_as(file);
+}
+
+void Simulation::record_problem(const std::filesystem::path& file) {
+  State& s = *state_;
+  if (!s.parts.solver) {
+    throw Error{ErrorKind::usage, "there is no contact problem to record: the scene has no [ccp_solver]"};
+  }
+  const CcpOrigin origin{scene_hash(),
+                         SCREE_VERSION,
+                         static_cast<double>(s.steps + 1) * s.time_step,
+                         s.steps + 1,
+                         s.parts.solver_tolerance,
+                         s.parts.solver_iterations};
+  s.host->tap_next([file, origin](const CcpProblem& problem, std::span<const double> guess) {
+    write_ccp_file(file, make_ccp_record(problem, guess, origin));
+  });
 }
 
 void Simulation::resume(const std::filesystem::path& file) {

@@ -1,5 +1,7 @@
 #include "scree/simulation/step_host.hpp"
 
+#include <utility>
+
 #include "scree/base/release.hpp"
 #include "scree/simulation/force_sum.hpp"
 
@@ -24,6 +26,10 @@ SolveSummary StepHost::solve_ccp(const CcpProblem& problem, std::span<double> ga
     throw Error{ErrorKind::usage, parts_.stepper.info.label() +
                                       " solves a contact problem, but the scene has no [ccp_solver]; add one with "
                                       "`type`, and let needs_ccp_solver() of the stepper tell"};
+  }
+  if (const ProblemTap tap = std::exchange(tap_, {})) {
+    const PhaseTimer::Scope output{timer_, Phase::output};
+    tap(problem, gamma);
   }
   const SolveContext context{.tolerance = parts_.solver_tolerance,
                              .max_iterations = parts_.solver_iterations,

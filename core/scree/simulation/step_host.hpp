@@ -1,6 +1,7 @@
 // StepHost: the services that a time stepper calls during a step.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "scree/simulation/phase_timer.hpp"
 
 namespace scree {
+
+/// Receives a contact problem and the guess that its solver starts from [N s].
+using ProblemTap = std::function<void(const CcpProblem&, std::span<const double> guess)>;
 
 /// Answers a stepper from the scene's fields, collision phases and solver, and keeps the time of each.
 class StepHost final : public StepServices {
@@ -32,6 +36,8 @@ class StepHost final : public StepServices {
   SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) override;
   [[nodiscard]] const Materials& materials() const override { return materials_; }
   [[nodiscard]] const Executor& executor() const override { return executor_; }
+  /// Shows the next problem that is posed to `tap`, which may be empty, and no other one.
+  void tap_next(ProblemTap tap) { tap_ = std::move(tap); }
 
  private:
   const Parts& parts_;
@@ -42,6 +48,7 @@ class StepHost final : public StepServices {
   ActiveSetSolve active_set_;
   BirthCheck* births_ = nullptr;
   std::span<const SceneBody> known_;
+  ProblemTap tap_;
 };
 
 }  // namespace scree

@@ -118,7 +118,8 @@ class GroupWriter final : public StateWriter {
 
 class GroupReader final : public StateReader {
  public:
-  GroupReader(Handle group, std::string file) : group_{std::move(group)}, file_{std::move(file)} {}
+  /// `place` names the file in messages: "the checkpoint FILE".
+  GroupReader(Handle group, std::string place) : group_{std::move(group)}, place_{std::move(place)} {}
 
   bool has(std::string_view name) const override {
     return H5Lexists(group_.get(), std::string{name}.c_str(), H5P_DEFAULT) > 0;
@@ -141,22 +142,22 @@ class GroupReader final : public StateReader {
   std::unique_ptr<StateReader> group(std::string_view name) const override {
     Handle child{H5Gopen2(group_.get(), std::string{name}.c_str(), H5P_DEFAULT), H5Gclose};
     check(child.valid(), missing(name));
-    return std::make_unique<GroupReader>(std::move(child), file_);
+    return std::make_unique<GroupReader>(std::move(child), place_);
   }
 
  private:
   [[nodiscard]] std::string missing(std::string_view name) const {
-    return "the checkpoint " + file_ + " holds no \"" + std::string{name} + "\"; was it written by another scene?";
+    return place_ + " holds no \"" + std::string{name} + "\"; was it written by another scene?";
   }
   [[nodiscard]] std::string damaged(std::string_view name) const {
-    return "\"" + std::string{name} + "\" in the checkpoint " + file_ + " cannot be read; the file is damaged.";
+    return "\"" + std::string{name} + "\" in " + place_ + " cannot be read; the file is damaged.";
   }
   [[nodiscard]] Handle open(std::string_view name, H5T_class_t expected) const {
     Handle dataset{H5Dopen2(group_.get(), std::string{name}.c_str(), H5P_DEFAULT), H5Dclose};
     check(dataset.valid(), missing(name));
     const Handle type{H5Dget_type(dataset.get()), H5Tclose};
     check(H5Tget_class(type.get()) == expected,
-          "\"" + std::string{name} + "\" in the checkpoint " + file_ + " is of another kind than expected.");
+          "\"" + std::string{name} + "\" in " + place_ + " is of another kind than expected.");
     return dataset;
   }
   template <class Value>
@@ -165,13 +166,19 @@ class GroupReader final : public StateReader {
     const Handle space{H5Dget_space(dataset.get()), H5Sclose};
     const hssize_t count = H5Sget_simple_extent_npoints(space.get());
     check(count >= 0, damaged(name));
+    // A damaged file must not ask for memory that it cannot fill: compression saves at most a factor of about 1032.
+    hsize_t file_size = 0;
+    const Handle file{H5Iget_file_id(group_.get()), H5Fclose};
+    check(H5Fget_filesize(file.get(), &file_size) >= 0 &&
+              static_cast<hsize_t>(count) <= file_size * (1032 / sizeof(Value)),
+          damaged(name));
     std::vector<Value> values(static_cast<std::size_t>(count));
     check(values.empty() || H5Dread(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
           damaged(name));
     return values;
   }
   Handle group_;
-  std::string file_;
+  std::string place_;
 };
 
 // A file that lives in memory only.
@@ -187,53 +194,73 @@ Handle make_image() {
   return file;
 }
 
-Handle open_file(const std::string& file) {
+std::string place_of(const std::string& file, const StateContent& content) {
+  return "the " + content.noun + " " + file;
+}
+
+Handle open_file(const std::string& file, const StateContent& content) {
   silence_hdf5();
-  check(std::filesystem::exists(file), "there is no checkpoint " + file + ".");
-  check(std::filesystem::is_regular_file(file), file + " is not a file; a checkpoint such as checkpoint.h5 is needed.");
-  check(H5Fis_hdf5(file.c_str()) > 0,
-        file + " is not a checkpoint: it is not an HDF5 file, or cannot be read. Give a checkpoint.h5 of scree.");
+  check(std::filesystem::exists(file), "there is no " + content.noun + " " + file + ".");
+  check(std::filesystem::is_regular_file(file),
+        file + " is not a file; a " + content.noun + " such as " + content.example + " is needed.");
+  check(H5Fis_hdf5(file.c_str()) > 0, file + " is not a " + content.noun +
+                                          ": it is not an HDF5 file, or cannot be read. Give a " + content.example +
+                                          " of scree.");
   const Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
   Handle opened{H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose};
-  check(opened.valid(), "the checkpoint " + file + " is damaged or cut short; use an older one.");
+  check(opened.valid(), place_of(file, content) + " is damaged or cut short; use an older one.");
   return opened;
 }
 
-// The text attribute `name`, or an Error that `file` is not a checkpoint.
-std::string text_attribute(hid_t place, const char* name, const std::string& file) {
-  const std::string foreign =
-      file + " is an HDF5 file, but not a checkpoint of scree: it has no attribute \"" + std::string{name} + "\".";
-  const Handle attribute{H5Aopen(place, name, H5P_DEFAULT), H5Aclose};
-  check(attribute.valid(), foreign);
-  const Handle type{H5Aget_type(attribute.get()), H5Tclose};
-  check(H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0, foreign);
-  std::string value(H5Tget_size(type.get()), '\0');
-  check(H5Aread(attribute.get(), type.get(), value.data()) >= 0, foreign);
-  return without_padding(std::move(value));
-}
+// An HDF5 file, opened, whose attributes say what it is.
+struct OpenFile {
+  hid_t id;
+  const std::string& name;
+  const StateContent& content;
 
-void check_format(hid_t place, const std::string& file) {
-  const Handle attribute{H5Aopen(place, "format_version", H5P_DEFAULT), H5Aclose};
-  std::uint64_t version = 0;
-  check(attribute.valid() && H5Aread(attribute.get(), H5T_NATIVE_UINT64, &version) >= 0,
-        file + " is an HDF5 file, but not a checkpoint of scree: it has no attribute \"format_version\".");
-  check(version == kFormatVersion, "the checkpoint " + file + " has format " + std::to_string(version) +
-                                       "; this scree reads format " + std::to_string(kFormatVersion) + ".");
-}
+  [[nodiscard]] std::string foreign(const char* attribute) const {
+    return name + " is an HDF5 file, but not a " + content.noun + " of scree: it has no attribute \"" +
+           std::string{attribute} + "\".";
+  }
+  // The text attribute `attribute`, or an Error that this is none of scree's files.
+  [[nodiscard]] std::string text(const char* attribute) const {
+    const Handle place{H5Aopen(id, attribute, H5P_DEFAULT), H5Aclose};
+    check(place.valid(), foreign(attribute));
+    const Handle type{H5Aget_type(place.get()), H5Tclose};
+    check(H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) == 0, foreign(attribute));
+    std::string value(H5Tget_size(type.get()), '\0');
+    check(H5Aread(place.get(), type.get(), value.data()) >= 0, foreign(attribute));
+    return without_padding(std::move(value));
+  }
+  void check_format() const {
+    const Handle place{H5Aopen(id, "format_version", H5P_DEFAULT), H5Aclose};
+    std::uint64_t version = 0;
+    check(place.valid() && H5Aread(place.get(), H5T_NATIVE_UINT64, &version) >= 0, foreign("format_version"));
+    check(version == kFormatVersion, place_of(name, content) + " has format " + std::to_string(version) +
+                                         "; this scree reads format " + std::to_string(kFormatVersion) + ".");
+    // The first checkpoints did not say what they are.
+    const std::string held = H5Aexists(id, "content") > 0 ? text("content") : StateContent{}.noun;
+    check(held == content.noun,
+          name + " holds a " + held + " of scree; a " + content.noun + " such as " + content.example + " is needed.");
+  }
+};
 
 Handle top_group(const Handle& file) { return {H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose}; }
 
 }  // namespace
 
 struct CheckpointWriter::Image {
+  std::string noun;
   Handle file = make_image();
   GroupWriter root{top_group(file)};
 };
 
-CheckpointWriter::CheckpointWriter(const CheckpointHeader& header) : image_{std::make_unique<Image>()} {
+CheckpointWriter::CheckpointWriter(const CheckpointHeader& header, const StateContent& content)
+    : image_{new Image{content.noun}} {
   const hid_t file = image_->file.get();
   write_scalar(file, "format_version", H5T_NATIVE_UINT64, &kFormatVersion);
+  write_text_attribute(file, "content", content.noun);
   write_text_attribute(file, "scene_hash", header.scene_hash);
   write_text_attribute(file, "scree_version", header.scree_version);
 }
@@ -246,25 +273,27 @@ void CheckpointWriter::save_as(const std::filesystem::path& file) {
   void* memory = nullptr;
   // The handle of a file in memory is the address of the pointer to its bytes: they are written without a copy.
   check(H5Fflush(id, H5F_SCOPE_LOCAL) >= 0 && H5Fget_vfd_handle(id, H5P_DEFAULT, &memory) >= 0 && memory != nullptr,
-        "cannot compose the checkpoint " + file.string() + " in memory.");
+        "cannot compose the " + image_->noun + " " + file.string() + " in memory.");
   // An image without a place to go to is only measured.
   const ssize_t size = H5Fget_file_image(id, nullptr, 0);
-  check(size > 0, "cannot measure the checkpoint " + file.string() + " in memory.");
+  check(size > 0, "cannot measure the " + image_->noun + " " + file.string() + " in memory.");
   replace_file(file, std::span{*static_cast<const std::byte* const*>(memory), static_cast<std::size_t>(size)});
 }
 
 struct CheckpointReader::Source {
-  explicit Source(const std::string& path) : file{open_file(path)}, root{top_group(file), path} {
-    check_format(file.get(), path);
-    header = {text_attribute(file.get(), "scene_hash", path), text_attribute(file.get(), "scree_version", path)};
+  Source(const std::string& path, const StateContent& content)
+      : file{open_file(path, content)}, root{top_group(file), place_of(path, content)} {
+    const OpenFile opened{file.get(), path, content};
+    opened.check_format();
+    header = {opened.text("scene_hash"), opened.text("scree_version")};
   }
   Handle file;
   GroupReader root;
   CheckpointHeader header;
 };
 
-CheckpointReader::CheckpointReader(const std::filesystem::path& file)
-    : source_{std::make_unique<Source>(file.string())} {}
+CheckpointReader::CheckpointReader(const std::filesystem::path& file, const StateContent& content)
+    : source_{std::make_unique<Source>(file.string(), content)} {}
 CheckpointReader::~CheckpointReader() = default;
 
 const CheckpointHeader& CheckpointReader::header() const { return source_->header; }

@@ -1,7 +1,7 @@
 // Checkpoints as HDF5 files: groups and plain one-dimensional datasets that any HDF5 tool can read.
 //
-// A file carries the attributes format_version, scene_hash and scree_version, and a check sum on every dataset. It is
-// composed in memory and appears on disk whole or not at all: a full disk never costs the last good checkpoint.
+// A file carries the attributes format_version, content, scene_hash and scree_version, and a check sum on every dataset.
+// Other files of scree, such as recorded contact problems, have the same form with another content. It is composed in memory and appears on disk whole or not at all: a full disk never costs the last good checkpoint.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,12 @@
 #include "scree/state/state_io.hpp"
 
 namespace scree {
+
+/// What a file holds, and how such files are called, for messages.
+struct StateContent {
+  std::string noun = "checkpoint";
+  std::string example = "checkpoint.h5";
+};
 
 /// What a checkpoint says about itself.
 struct CheckpointHeader {
@@ -22,7 +28,7 @@ struct CheckpointHeader {
 class CheckpointWriter {
  public:
   /// Touches no file yet.
-  explicit CheckpointWriter(const CheckpointHeader& header);
+  explicit CheckpointWriter(const CheckpointHeader& header, const StateContent& content = {});
   ~CheckpointWriter();
   CheckpointWriter(const CheckpointWriter&) = delete;
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
@@ -41,9 +47,9 @@ class CheckpointWriter {
 /// Reads a checkpoint.
 class CheckpointReader {
  public:
-  /// @throws Error (io) when `file` is missing, is no HDF5 file, is cut short, is no checkpoint of scree, or has a
-  /// newer format.
-  explicit CheckpointReader(const std::filesystem::path& file);
+  /// @throws Error (io) when `file` is missing, is no HDF5 file, is cut short, is no file of scree, holds something else
+  /// than `content`, or has a newer format.
+  explicit CheckpointReader(const std::filesystem::path& file, const StateContent& content = {});
   ~CheckpointReader();
   CheckpointReader(const CheckpointReader&) = delete;
   CheckpointReader& operator=(const CheckpointReader&) = delete;

@@ -15,7 +15,7 @@ std::span<const double> components(std::span<const Record> values) {
 }
 
 [[noreturn]] void wrong_count(std::string_view name, std::size_t count, const char* expected) {
-  throw Error{ErrorKind::io, "the checkpoint holds " + std::to_string(count) + " numbers under \"" + std::string{name} +
+  throw Error{ErrorKind::io, "the file holds " + std::to_string(count) + " numbers under \"" + std::string{name} +
                                  "\", but " + expected + " expected."};
 }
 
