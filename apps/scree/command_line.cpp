@@ -63,6 +63,7 @@ int run_command_line(int argc, char** argv) {
   int exit_code = 0;
   add_run_command(app, exit_code);
   add_check_command(app, exit_code);
+  add_compare_command(app, exit_code);
   add_solve_command(app, exit_code);
   add_plugins_command(app, exit_code);
   add_schema_command(app, exit_code);

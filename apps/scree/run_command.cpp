@@ -17,13 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// NAME.scree-results in the working directory; NAME is the scene's file, or its folder for a scene.toml.
-fs::path default_output(const fs::path& scene) {
-  const fs::path absolute = fs::absolute(scene).lexically_normal();
-  const fs::path name = absolute.filename() == "scene.toml" ? absolute.parent_path().filename() : absolute.stem();
-  return name.string() + ".scree-results";
-}
-
 bool lies_in(const fs::path& file, const fs::path& folder) {
   return fs::weakly_canonical(file).parent_path() == fs::weakly_canonical(folder);
 }
@@ -69,7 +62,7 @@ std::unique_ptr<Simulation> make_simulation(const SceneDocument& scene, const Pl
 
 int run(RunOptions options) {
   options.scene = scene_file(options.scene);
-  if (options.output.empty()) options.output = default_output(options.scene);
+  if (options.output.empty()) options.output = default_output(options.scene, ".scree-results");
   if (options.threads == 0) options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   check_resume(options);
   const SceneDocument scene = SceneDocument::load(options.scene, options.overrides);

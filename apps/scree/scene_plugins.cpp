@@ -46,6 +46,13 @@ std::filesystem::path scene_file(const std::filesystem::path& scene) {
   return std::filesystem::is_directory(scene) ? scene / "scene.toml" : scene;
 }
 
+std::filesystem::path default_output(const std::filesystem::path& scene, const std::string& ending) {
+  const std::filesystem::path absolute = std::filesystem::absolute(scene).lexically_normal();
+  const bool is_folder = absolute.filename() == "scene.toml";
+  const std::filesystem::path name = is_folder ? absolute.parent_path().filename() : absolute.stem();
+  return name.string() + ending;
+}
+
 PluginHost find_general_plugins(const std::vector<std::string>& plugin_dirs) { return find({}, plugin_dirs); }
 
 PluginHost find_scene_plugins(const SceneDocument& scene, const std::vector<std::string>& plugin_dirs) {

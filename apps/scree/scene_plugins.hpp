@@ -14,6 +14,9 @@ class SceneDocument;
 /// The scene file that a user means: a folder stands for the scene.toml in it.
 [[nodiscard]] std::filesystem::path scene_file(const std::filesystem::path& scene);
 
+/// NAME with `ending` in the working directory; NAME is the scene's file, or its folder for a scene.toml.
+[[nodiscard]] std::filesystem::path default_output(const std::filesystem::path& scene, const std::string& ending);
+
 /// The plugins of the folders in `plugin_dirs`, of SCREE_PLUGIN_PATH and of scree itself. Prints a warning for every
 /// file that was left out. @throws Error (usage) for a folder that does not exist.
 [[nodiscard]] PluginHost find_general_plugins(const std::vector<std::string>& plugin_dirs);

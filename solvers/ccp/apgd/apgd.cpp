@@ -323,7 +323,10 @@ SolveSummary Apgd::solve(const CcpProblem& problem, const SolveContext& context,
       next_look = summary.iterations < options_.check_interval ? 2 * summary.iterations
                                                                : summary.iterations + options_.check_interval;
     }
-    if (context.on_iteration) context.on_iteration({summary.iterations, looking ? summary.residual : -1.0});
+    if (context.on_iteration) {  // watched: what the best iterate would be worth if it were looked at now
+      const double best = looking ? summary.residual : std::min(summary.residual, residual());
+      context.on_iteration({summary.iterations, best});
+    }
     if (!accepted) break;
     theta = theta_next, beta = beta_next;
     if (options_.restart && uphill_ > 0.0) theta = 1.0, beta = 0.0;

@@ -233,7 +233,9 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
     }
     if (context.on_iteration) {
       if (both) context.on_iteration({first, -1.0});
-      context.on_iteration({summary.iterations, looking ? summary.residual : -1.0});
+      // Watched: what the best iterate would be worth if it were looked at now.
+      const double best = looking ? summary.residual : std::min(summary.residual, residual(x_));
+      context.on_iteration({summary.iterations, best});
     }
     const double theta_next = 0.5 * theta * (std::sqrt(theta * theta + 4.0) - theta);
     beta = options_.accelerated ? theta * (1.0 - theta) / (theta * theta + theta_next) : 0.0;

@@ -85,7 +85,7 @@ SolveSummary Pgs::solve(const CcpProblem& problem, const SolveContext& context, 
     const bool look = k % options_.check_interval == 0 || k == context.max_iterations ||
                       (k < options_.check_interval && (k & (k - 1)) == 0);
     if (look) summary.residual = residual(gamma);
-    if (context.on_iteration) context.on_iteration({k, look ? summary.residual : -1.0});
+    if (context.on_iteration) context.on_iteration({k, look ? summary.residual : residual(gamma)});
   }
   // The velocities were summed up update by update; the answer is judged from the impulses alone.
   delassus_.body_velocities(gamma, w_);

@@ -1,0 +1,28 @@
+#include "run_to.hpp"
+
+#include <chrono>
+
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "scree/simulation/simulation.hpp"
+
+namespace scree {
+
+bool run_to(Simulation& simulation, std::uint64_t steps, bool quiet, const std::function<void()>& before_step,
+            const std::function<void(const StepRecord&)>& after_step) {
+  const InterruptWatch watch;
+  const auto start = std::chrono::steady_clock::now();
+  const double end = static_cast<double>(steps) * simulation.time_step();
+  Progress progress{quiet, simulation.time(), end};
+  while (simulation.steps() < steps && !watch.interrupted()) {
+    if (before_step) before_step();
+    const StepRecord step = simulation.step();
+    if (after_step) after_step(step);
+    progress.update({step.time, end, step.bodies, step.contacts, static_cast<int>(step.iterations), step.residual,
+                     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+  }
+  progress.end_line();
+  return simulation.steps() >= steps;
+}
+
+}  // namespace scree
