@@ -101,6 +101,43 @@ class CcpFiles(unittest.TestCase):
         self.assertEqual(result.returncode, 4)
         self.assertIn("cut.h5 is damaged or cut short", result.stderr)
 
+    def table(self, *arguments):
+        """comparison.csv of a comparison in a folder of its own."""
+        folder = tempfile.mkdtemp(dir=self.work)
+        result = scree("compare", "scene.toml", "-o", f"{folder}/out", "--quiet", *arguments, folder=self.work)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(f"{folder}/out/comparison.csv") as table:
+            return pathlib.Path(folder) / "out", list(csv.DictReader(table))
+
+    def test_solvers_are_compared_on_the_problem_of_the_run(self):
+        folder, rows = self.table("--vary", "ccp_solver=pgs,apgd", "--at", str(STEP / 1000))
+        self.assertEqual([(row["solver"], row["start"]) for row in rows],
+                         [("pgs", "cold"), ("apgd", "cold"), ("pgs", "warm"), ("apgd", "warm")])
+        for row in rows:  # as `scree solve` finds it
+            alone = self.solve(row["solver"], *(["--warm"] if row["start"] == "warm" else []))
+            self.assertEqual(int(row["iterations"]), alone["iterations"])
+            self.assertEqual(float(row["residual [m/s]"]), alone["residual"])
+        for start in ("cold", "warm"):
+            for axis in ("iterations", "time"):
+                for ending in ("svg", "png"):
+                    self.assertTrue((folder / f"convergence_{STEP}_{start}_{axis}.{ending}").exists())
+        with open(folder / "convergence.csv") as table:
+            curve = [row for row in csv.DictReader(table) if (row["solver"], row["start"]) == ("pgs", "cold")]
+        # Watched, pgs tells the residual of every sweep, and ends at the one that the table has.
+        self.assertEqual([int(row["iteration"]) for row in curve], list(range(len(curve))))
+        self.assertEqual(len(curve) - 1, int(rows[0]["iterations"]))
+        self.assertAlmostEqual(float(curve[-1]["residual [m/s]"]), float(rows[0]["residual [m/s]"]), delta=1e-9)
+
+    def test_whole_runs_with_another_broad_phase_share_their_state(self):
+        _, rows = self.table("--vary", "broad_phase=grid,bullet_dbvt", "--at", "0.05")
+        self.assertEqual([row["broad_phase"] for row in rows], ["grid", "bullet_dbvt"])
+        self.assertEqual(rows[0]["state_hash"], rows[1]["state_hash"])
+        self.assertEqual({row["steps"] for row in rows}, {"50"})
+
+    def test_settings_are_exchanged_too(self):
+        _, rows = self.table("--vary", "simulation.time_step=0.001,0.002", "--at", "0.05")
+        self.assertEqual([row["steps"] for row in rows], ["50", "25"])
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
