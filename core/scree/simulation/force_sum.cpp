@@ -5,9 +5,11 @@
 namespace scree {
 namespace {
 
-/// The first body whose force or torque is not finite, or the number of bodies.
-std::size_t first_bad(const WrenchView& wrench) {
+/// The first body that forces move and whose force or torque is not finite, or the number of bodies. Entries of other bodies
+/// are ignored: their mass is infinite, and a field may well have multiplied by it.
+std::size_t first_bad(const BodyView& bodies, const WrenchView& wrench) {
   for (std::size_t i = 0; i < wrench.force.size(); ++i) {
+    if (bodies.motion[i] != Motion::dynamic) continue;
     if (!is_finite(wrench.force[i]) || !is_finite(wrench.torque[i])) return i;
   }
   return wrench.force.size();
@@ -24,7 +26,7 @@ void clear(const WrenchView& wrench) {
   for (const Part<ForceField>& field : fields) {
     clear(wrench);
     field.plugin->add_forces(bodies, time, wrench);
-    const std::size_t body = first_bad(wrench);
+    const std::size_t body = first_bad(bodies, wrench);
     if (body == bodies.size()) continue;
     throw Error{ErrorKind::diverged, field.info.label_with_library() + ": the force on body " +
                                          std::to_string(bodies.id[body]) + " is not a finite number at t = " +
@@ -41,7 +43,7 @@ void sum_forces(std::span<const Part<ForceField>> fields, const BodyView& bodies
   for (const Part<ForceField>& field : fields) {
     guarded(field.info, ErrorKind::diverged, [&] { field.plugin->add_forces(bodies, time, out); });
   }
-  if (first_bad(out) != bodies.size()) throw_guilty(fields, bodies, time, out);
+  if (first_bad(bodies, out) != bodies.size()) throw_guilty(fields, bodies, time, out);
 }
 
 }  // namespace scree

@@ -144,6 +144,17 @@ TEST(Simulation, names_the_field_and_the_body_of_a_nan_and_keeps_the_last_good_s
   EXPECT_EQ(simulation.bodies().view().position[1], before);
 }
 
+// 0 m/s2 times the infinite mass of a fixed body is NaN, and nobody's concern: entries of immovable bodies are ignored.
+TEST(Simulation, a_field_may_multiply_by_the_mass_of_a_fixed_body) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(
+      scene("[[force_field]]\ntype = 'push'\nacceleration = 0\n[[body]]\nshape = 'ball'\nmaterial = 'stone'\n"
+            "[[body]]\nshape = 'ball'\nmaterial = 'stone'\nmotion = 'dynamic'\nposition = [5, 0, 0]\n"));
+  Simulation simulation{document, catalog, {}};
+  EXPECT_NO_THROW(simulation.step());
+  EXPECT_EQ(simulation.bodies().view().position[1], (Vec3{5, 0, 0}));
+}
+
 TEST(Simulation, too_fast_is_diverged) {
   const Catalog catalog;
   const SceneDocument document =

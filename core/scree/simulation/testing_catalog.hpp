@@ -28,6 +28,7 @@ class FreeFlight final : public TimeStepper {
     torque_.resize(bodies.view.size());
     services.forces(bodies.view, time, {force_, torque_});
     for (std::size_t i = 0; i < bodies.view.size(); ++i) {
+      if (bodies.view.motion[i] != Motion::dynamic) continue;
       bodies.velocity[i] += dt * inverse_mass(bodies.view, static_cast<BodyIndex>(i)) * force_[i];
       bodies.position[i] += dt * bodies.velocity[i];
     }
@@ -81,7 +82,7 @@ class Push final : public ForceField {
   }
   void add_forces(const BodyView& bodies, double time, WrenchView out) const override {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (bodies.motion[i] == Motion::dynamic) out.force[i].x += bodies.mass[i] * acceleration_;
+      out.force[i].x += bodies.mass[i] * acceleration_;
       if (time >= poison_from_ && i == 1) out.force[i].x = std::nan("");
     }
   }
