@@ -5,8 +5,8 @@
 
 #include "scree/ccp/cone3.hpp"
 #include "scree/ccp/judge.hpp"
+#include "support/allocation_count.hpp"
 #include "support/ccp_problems.hpp"
-#include "support/count_allocations.hpp"
 
 namespace scree {
 namespace {
@@ -274,9 +274,9 @@ TEST(active_set, second_solve_of_equal_size_allocates_nothing) {
   active_set.solve(solver, few.view(), context, gamma);
   const std::size_t before_blocks = solver.blocks;
   std::fill(gamma.begin(), gamma.end(), 0.0);
-  const long before = test::allocations();
+  const std::uint64_t before = test::allocation_count();
   active_set.solve(solver, more.view(), context, gamma);
-  EXPECT_EQ(test::allocations() - before, 0);
+  EXPECT_EQ(test::allocation_count() - before, 0U);
   EXPECT_GT(solver.blocks, before_blocks);
   EXPECT_LT(solver.blocks, few.view().blocks());
 }
