@@ -19,7 +19,7 @@ def floor_impulses(run, since):
     return list(sums.values())
 
 
-def check_rest(check, what, run, mass, count):
+def check_rest(check, what, run, mass, count, left):
     steps = run.table("steps.csv")
     rest = 0.9 * steps["time"][-1]
     # The solver stops when every contact is right to 0.01 mm/s, so that a bed of LAYERS may move as a whole by LAYERS times
@@ -33,8 +33,8 @@ def check_rest(check, what, run, mass, count):
     check.near(f"{what}: on average it carries M g h, to 0.5 %", sum(sums) / len(sums), weight, 5e-3 * weight)
     # Without rolling friction a few grains roll on for long.
     energy = steps["kinetic_energy"]
-    check.holds(f"{what}: it comes to rest: 1e-3 of its greatest kinetic energy are left",
-                energy[-1] <= 1e-3 * max(energy), f"from {max(energy):.3g} to {energy[-1]:.3g} J")
+    check.holds(f"{what}: it comes to rest: {left:g} of its greatest kinetic energy are left",
+                energy[-1] <= left * max(energy), f"from {max(energy):.3g} to {energy[-1]:.3g} J")
     settled = [p for t, p in zip(steps["time"], steps["mean_penetration"]) if t >= rest]
     check.holds(f"{what}: mean penetration at rest at most 0.5 % of the radius", max(settled) <= 5e-3,
                 f"{max(settled):.2g}")
@@ -77,10 +77,11 @@ with Check(__file__) as check:
     # more of them better.
     expected = count * DENSITY * math.pi / 6 * (6e-3**4 - 4e-3**4) / (4 * 2e-3)
     check.near("fill: the mass of the bed, to four deviations of the size law", mass, expected, 0.045 * expected)
-    check_rest(check, "fill", run, mass, count)
+    check_rest(check, "fill", run, mass, count, left=1e-4)
 
     bed = check.folder / "bed.txt"
     check.folder.mkdir(parents=True, exist_ok=True)
     mass = write_bed(bed, 400, 0.05)
     run = check.run("bed", scene=check.scene.parent / "settle_bed.toml", source__bed__file=bed.resolve())
-    check_rest(check, "bed", run, mass, 400)
+    # The energy of a single grain at 4 cm/s is 1e-4 of the greatest of these 400, and nothing stops one that rolls.
+    check_rest(check, "bed", run, mass, 400, left=1e-3)
