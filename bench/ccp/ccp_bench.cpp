@@ -37,7 +37,7 @@ PluginHost& host() {
 
 // Bytes that an iteration must move: the contact's minimal fields once, impulses read and written, velocities once.
 double floor_bytes(const CcpProblem& p) {
-  const auto m = static_cast<double>(p.blocks()), n = static_cast<double>(p.bodies());
+  const auto m = static_cast<double>(p.contacts.size()), n = static_cast<double>(p.bodies());
   return m * (sizeof(CcpContact) + 2 * 3 * sizeof(double)) + n * 6 * sizeof(double);
 }
 
@@ -75,13 +75,13 @@ void iterations(benchmark::State& state, const std::string& plugin, const std::s
     std::fill(gamma.begin(), gamma.end(), 0.0);
     summary = solver.solve(problem, context, gamma);
   }
-  const double each = static_cast<double>(problem.blocks()) * 100.0;
+  const double each = static_cast<double>(problem.contacts.size()) * 100.0;
   using benchmark::Counter;
   state.counters["ns_per_contact_iteration"] =
       Counter{each * 1e-9, Counter::kIsIterationInvariantRate | Counter::kInvert};
-  state.counters["floor_ns"] = floor_bytes(problem) / static_cast<double>(problem.blocks()) / copy_bandwidth() * 1e9;
+  state.counters["floor_ns"] = floor_bytes(problem) / static_cast<double>(problem.contacts.size()) / copy_bandwidth() * 1e9;
   state.counters["residual"] = summary.residual;
-  state.counters["contacts"] = static_cast<double>(problem.blocks());
+  state.counters["contacts"] = static_cast<double>(problem.contacts.size());
 }
 
 // Iterations and time until the residual is reached, from zero.

@@ -58,7 +58,7 @@ inline void expect_solution(const CcpProblem& p, const std::vector<double>& gamm
   delassus.bind(p, nullptr);
   std::vector<double> u(p.rows());
   delassus.apply(gamma, u);
-  for (std::size_t i = 0; i < p.blocks(); ++i) {
+  for (std::size_t i = 0; i < p.contacts.size(); ++i) {
     const double mu = p.contacts[i].friction;
     const Vec3 g = load_block(gamma, i), v = load_block(u, i) + load_block(p.r, i);
     const double scale = 3.0 / diagonal_trace(p, i);

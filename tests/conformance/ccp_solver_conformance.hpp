@@ -133,7 +133,7 @@ TEST_P(CcpSolverConformance, objective_is_never_above_that_of_the_projected_gues
     std::vector<double> guess(p.rows());
     for (double& g : guess) g = 10.0 * normal(random);
     std::vector<double> projected = guess;
-    for (std::size_t i = 0; i < p.blocks(); ++i) {
+    for (std::size_t i = 0; i < p.contacts.size(); ++i) {
       store_block(projected, i, project_cone3(load_block(guess, i), p.contacts[i].friction));
     }
     const double start = objective_of(p, projected);

@@ -60,7 +60,7 @@ class FakeStepServices final : public StepServices {
     std::vector<double> u(problem.rows());
     SolveSummary summary{SolveStatus::iteration_limit, 0, ccp_residual(problem, gamma)};
     while (summary.residual > tolerance && summary.iterations < 5000) {
-      for (std::size_t i = 0; i < problem.blocks(); ++i) {
+      for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
         delassus.apply(gamma, u);
         const Vec3 velocity = load_block(u, i) + load_block(problem.r, i);
         const Mat3 block = diagonal_block(problem, i);

@@ -34,7 +34,7 @@ int round_length(int left, bool settled) {
 }
 
 void project_guess(const CcpProblem& problem, std::span<double> gamma) {
-  for (std::size_t i = 0; i < problem.blocks(); ++i) {
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const Vec3 g = load_block(gamma, i);
     store_block(gamma, i, is_finite(g) ? project_cone3(g, problem.contacts[i].friction) : Vec3{});
   }
@@ -62,7 +62,7 @@ std::size_t ActiveSetSolve::mark_guess(const CcpProblem& problem, const SolveCon
                                        std::span<const double> gamma) {
   delassus_.bind(problem, context.executor);
   w_.resize(problem.bodies());
-  active_.resize(problem.blocks());
+  active_.resize(problem.contacts.size());
   std::size_t carrying = 0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
     active_[i] = static_cast<char>(gamma[3 * i] > 0.0);
@@ -80,8 +80,8 @@ SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext&
   compliance_.clear();
   gamma_.clear();
   // Room for all: how many are active changes from step to step.
-  index_.reserve(problem.blocks());
-  contacts_.reserve(problem.blocks());
+  index_.reserve(problem.contacts.size());
+  contacts_.reserve(problem.contacts.size());
   r_.reserve(problem.rows());
   gamma_.reserve(problem.rows());
   if (compliant) compliance_.reserve(problem.rows());
@@ -131,12 +131,12 @@ SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext&
 SolveSummary ActiveSetSolve::solve(CcpSolver& solver, const CcpProblem& problem, const SolveContext& context,
                                    std::span<double> gamma) {
   SCREE_REQUIRE(gamma.size() == problem.rows(), "ActiveSetSolve: gamma needs three numbers a contact");
-  if (problem.blocks() == 0) return {};
+  if (problem.contacts.size() == 0) return {};
   project_guess(problem, gamma);
   const std::size_t active = mark_guess(problem, context, gamma);
-  if (static_cast<double>(active) > kWorthwhile * static_cast<double>(problem.blocks())) {
+  if (static_cast<double>(active) > kWorthwhile * static_cast<double>(problem.contacts.size())) {
     // The workspace is free for the solver's.
-    if (problem.blocks() >= kManyRecords) *this = {};
+    if (problem.contacts.size() >= kManyRecords) *this = {};
     return solver.solve(problem, context, gamma);
   }
   SolveSummary total = solve_rounds(solver, context, active, gamma);

@@ -20,15 +20,15 @@ class SlowSolver final : public CcpSolver {
  public:
   SolveSummary solve(const CcpProblem& p, const SolveContext& context, std::span<double> gamma) override {
     ++calls;
-    blocks = p.blocks();
+    blocks = p.contacts.size();
     if (answer != SolveStatus::converged) return {answer, 0, 1.0};
     delassus_.bind(p, nullptr);
     w_.resize(p.bodies());
     delassus_.body_velocities(gamma, w_);
     SolveSummary out{SolveStatus::iteration_limit, 0, ccp_residual(delassus_, gamma, w_, partial_)};
     while (out.residual > context.tolerance && out.iterations < context.max_iterations) {
-      for (std::size_t i = 0; i < p.blocks(); ++i) update(p, i, gamma);
-      updates += p.blocks();
+      for (std::size_t i = 0; i < p.contacts.size(); ++i) update(p, i, gamma);
+      updates += p.contacts.size();
       delassus_.body_velocities(gamma, w_);
       out.residual = ccp_residual(delassus_, gamma, w_, partial_);
       ++out.iterations;
@@ -111,13 +111,13 @@ TEST(active_set, velocities_equal_those_of_the_full_solve_from_any_guess) {
     std::vector<double> zero(p.rows(), 0.0), warm = full, wild(p.rows(), 0.0);
     for (double& g : warm) g *= 1.0 + 0.1 * normal(random);
     // Outside the cones, and on few contacts only, so that others stay aside.
-    for (std::size_t i = 0; i < p.blocks(); i += 10) store_block(wild, i, {normal(random), normal(random), 1.0});
-    for (std::size_t i = 1; i < p.blocks(); i += 10) store_block(wild, i, {-1.0, 0.5, std::nan("")});
+    for (std::size_t i = 0; i < p.contacts.size(); i += 10) store_block(wild, i, {normal(random), normal(random), 1.0});
+    for (std::size_t i = 1; i < p.contacts.size(); i += 10) store_block(wild, i, {-1.0, 0.5, std::nan("")});
     ActiveSetSolve active_set;
     for (std::vector<double>* gamma : {&zero, &warm, &wild}) {
       const SolveSummary s = active_set.solve(solver, p, tight(1e-11), *gamma);
       EXPECT_EQ(s.status, SolveStatus::converged) << "seed " << seed;
-      EXPECT_LT(solver.blocks, p.blocks()) << "nothing was put aside";
+      EXPECT_LT(solver.blocks, p.contacts.size()) << "nothing was put aside";
       EXPECT_EQ(s.residual, ccp_residual(p, *gamma));
       expect_same_velocities(p, *gamma, full);
     }
@@ -178,7 +178,7 @@ TEST(active_set, all_rounds_together_take_the_iterations_asked_for) {
     EXPECT_EQ(s.iterations, limit) << "a tolerance of zero uses up all iterations";
     EXPECT_EQ(s.iterations, last);
     // Each iteration updates the contacts of its part only.
-    EXPECT_LE(solver.updates, static_cast<std::size_t>(limit) * p.blocks());
+    EXPECT_LE(solver.updates, static_cast<std::size_t>(limit) * p.contacts.size());
     EXPECT_EQ(s.residual, ccp_residual(p, gamma));
   }
 }
@@ -192,7 +192,7 @@ TEST(active_set, objective_is_never_above_that_of_the_projected_guess) {
     std::normal_distribution<double> normal;
     for (std::size_t i = 0; i < p.rows(); i += 7) gamma[i] = normal(random);
     std::vector<double> projected = gamma;
-    for (std::size_t i = 0; i < p.blocks(); ++i) {
+    for (std::size_t i = 0; i < p.contacts.size(); ++i) {
       store_block(projected, i, project_cone3(load_block(gamma, i), p.contacts[i].friction));
     }
     DelassusOperator delassus;
@@ -278,7 +278,7 @@ TEST(active_set, second_solve_of_equal_size_allocates_nothing) {
   active_set.solve(solver, more.view(), context, gamma);
   EXPECT_EQ(test::allocation_count() - before, 0U);
   EXPECT_GT(solver.blocks, before_blocks);
-  EXPECT_LT(solver.blocks, few.view().blocks());
+  EXPECT_LT(solver.blocks, few.view().contacts.size());
 }
 
 }  // namespace

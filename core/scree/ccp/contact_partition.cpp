@@ -11,7 +11,7 @@ constexpr std::uint32_t kNoRun = std::numeric_limits<std::uint32_t>::max();
 
 void ContactPartition::build(const CcpProblem& problem) {
   const std::size_t n = problem.bodies();
-  const std::size_t m = problem.blocks();
+  const std::size_t m = problem.contacts.size();
   const auto movable = [&](std::uint32_t body) { return problem.inverse_mass[body] > 0.0; };
   slots_.resize(m);
   first_slot_.assign(n + 1, 0);

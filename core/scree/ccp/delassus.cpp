@@ -15,8 +15,8 @@ void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor)
   partition_.build(problem);
   slots_.resize(partition_.slot_count());
   w_.resize(problem.bodies());
-  traces_.resize(problem.blocks());
-  for_chunks(problem.blocks(), [&](std::size_t first, std::size_t last) {
+  traces_.resize(problem.contacts.size());
+  for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) traces_[i] = diagonal_trace(problem, i);
   });
 }

@@ -32,7 +32,7 @@ Matrix dense_delassus(const CcpProblem& p) {
     inverse_mass.block<3, 3>(6 * k + 3, 6 * k + 3) << j.row0.x, j.row0.y, j.row0.z, j.row1.x, j.row1.y, j.row1.z,
         j.row2.x, j.row2.y, j.row2.z;
   }
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(p.blocks()); ++i) {
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(p.contacts.size()); ++i) {
     const CcpContact& c = p.contacts[static_cast<std::size_t>(i)];
     const Eigen::Vector3d n = eigen(c.normal), t = eigen(c.tangent1);
     Eigen::Matrix3d axes;
@@ -77,7 +77,7 @@ TEST(delassus, products_and_blocks_equal_those_of_the_dense_matrix) {
     EXPECT_NEAR(delassus.objective(gamma), 0.5 * as_vector(gamma).dot(expected) + as_vector(p.r).dot(as_vector(gamma)),
                 tolerance * static_cast<double>(p.rows()));
 
-    for (std::size_t i = 0; i < p.blocks(); ++i) {
+    for (std::size_t i = 0; i < p.contacts.size(); ++i) {
       const Mat3 block = diagonal_block(p, i);
       const auto at = static_cast<Eigen::Index>(3 * i);
       EXPECT_LT((eigen(block.row0) - n.block<1, 3>(at, at).transpose()).cwiseAbs().maxCoeff(), tolerance);

@@ -13,7 +13,7 @@ namespace scree {
 /// Projects `gamma` (3 m) [N s] on the cones; blocks that are not finite become zero. False when the problem's own r [m/s]
 /// is not finite: then nothing can be solved.
 inline bool project_guess(const CcpProblem& problem, std::span<double> gamma) {
-  for (std::size_t i = 0; i < problem.blocks(); ++i) {
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const Vec3 g = load_block(gamma, i);
     store_block(gamma, i, is_finite(g) ? project_cone3(g, problem.contacts[i].friction) : Vec3{});
   }

@@ -28,8 +28,8 @@ double ccp_residual(const DelassusOperator& delassus, std::span<const double> ga
                     std::vector<double>& partial) {
   const CcpProblem& problem = delassus.problem();
   const bool compliant = !problem.compliance.empty();
-  partial.assign(Executor::chunk_count(problem.blocks(), DelassusOperator::kGrain), 0.0);
-  delassus.for_chunks(problem.blocks(), [&](std::size_t first, std::size_t last) {
+  partial.assign(Executor::chunk_count(problem.contacts.size(), DelassusOperator::kGrain), 0.0);
+  delassus.for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
     double worst = 0.0;
     for (std::size_t i = first; i < last; ++i) {
       const double trace = delassus.traces()[i];
@@ -60,7 +60,7 @@ CcpFigures CcpJudge::figures(const CcpProblem& problem, std::span<const double> 
   u_.resize(problem.rows());
   delassus_.apply(gamma, u_);
   double associated = 0.0, coulomb = 0.0, scale = 0.0;  // squares
-  for (std::size_t i = 0; i < problem.blocks(); ++i) {
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const double mu = problem.contacts[i].friction;
     const Vec3 g = load_block(gamma, i), r = load_block(problem.r, i);
     Vec3 u = load_block(u_, i) + r;

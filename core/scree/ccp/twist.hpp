@@ -6,20 +6,6 @@
 
 namespace scree {
 
-/// Six contiguous doubles of one body: a velocity, or the impulse and its moment
-/// that change it.
-struct Twist {
-  Vec3 linear;   ///< of the centre of mass [m/s], or impulse [N s], world
-  Vec3 angular;  ///< [rad/s], or moment about the centre of mass [N m s], world
-
-  constexpr Twist& operator+=(const Twist& o) {
-    linear += o.linear;
-    angular += o.angular;
-    return *this;
-  }
-  constexpr bool operator==(const Twist&) const = default;
-};
-
 /// A world vector in the frame of a contact: normal, tangent 1, tangent 2.
 constexpr Vec3 in_frame(const CcpContact& c, const Vec3& v) {
   return {dot(c.normal, v), dot(c.tangent1, v), dot(cross(c.normal, c.tangent1), v)};

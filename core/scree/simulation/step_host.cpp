@@ -39,7 +39,7 @@ SolveSummary StepHost::solve_ccp(const CcpProblem& problem, std::span<double> ga
   return guarded(parts_.solver->info, ErrorKind::diverged, [&] {
     const SolveSummary summary =
         parts_.active_set ? active_set_.solve(solver, problem, context, gamma) : solver.solve(problem, context, gamma);
-    if (problem.blocks() >= kManyRecords) {
+    if (problem.contacts.size() >= kManyRecords) {
       active_set_ = {};
       solver.release_workspace();
     }

@@ -61,7 +61,7 @@ apgd::Motion Apgd::InverseMass::times(const apgd::Motion& p) const {
 template <class Body>
 void Apgd::for_runs(const Body& body) const {
   static_assert(kGrain % 4 == 0);
-  delassus_.for_chunks(delassus_.problem().blocks(),
+  delassus_.for_chunks(delassus_.problem().contacts.size(),
                        [&](std::size_t first, std::size_t last) { body(first, last, first / 4); });
 }
 
@@ -109,8 +109,8 @@ void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::
   delassus_.bind(problem, context.executor);
   double mean = 0.0;
   for (const double trace : delassus_.traces()) mean += trace;
-  mean /= 3.0 * static_cast<double>(problem.blocks());
-  const std::size_t groups = (problem.blocks() + 3) / 4;
+  mean /= 3.0 * static_cast<double>(problem.contacts.size());
+  const std::size_t groups = (problem.contacts.size() + 3) / 4;
   groups_.resize(groups);
   scale_.resize(groups);
   x_.resize(groups);
@@ -180,7 +180,7 @@ apgd::LaneSums Apgd::contact_range(std::size_t first, std::size_t last, double b
 
 // x_new_ and its sums in slot_sums_, from x_, x_old_ and slot_motion_ = velocities of y.
 Apgd::Sums Apgd::contact_pass(double beta) {
-  partial_.resize(Executor::chunk_count(delassus_.problem().blocks(), kGrain));
+  partial_.resize(Executor::chunk_count(delassus_.problem().contacts.size(), kGrain));
   for_runs([&](std::size_t first, std::size_t last, std::size_t group) {
     const std::size_t end = group + (last - first + 3) / 4;
     const apgd::LaneSums s =
@@ -271,7 +271,7 @@ double Apgd::residual_range(std::size_t first, std::size_t last) const {
 // ccp_residual() of x_.
 double Apgd::residual() {
   if (spread_ != 0.0) spread_velocities(0.0);
-  residual_partial_.resize(Executor::chunk_count(delassus_.problem().blocks(), kGrain));
+  residual_partial_.resize(Executor::chunk_count(delassus_.problem().contacts.size(), kGrain));
   for_runs([&](std::size_t first, std::size_t last, std::size_t group) {
     residual_partial_[first / kGrain] = residual_range(group, group + (last - first + 3) / 4);
   });
@@ -300,7 +300,7 @@ void Apgd::unpack(std::span<double> gamma) const {
 
 SolveSummary Apgd::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
   SCREE_REQUIRE(gamma.size() == problem.rows(), "apgd: gamma needs three numbers a contact");
-  if (problem.blocks() == 0) return {};
+  if (problem.contacts.size() == 0) return {};
   if (!project_guess(problem, gamma)) {
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }

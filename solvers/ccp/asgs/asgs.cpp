@@ -203,7 +203,7 @@ void Asgs::look(SolveSummary& summary) {
 
 SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
   SCREE_REQUIRE(gamma.size() == problem.rows(), "asgs: gamma needs three numbers a contact");
-  if (problem.blocks() == 0) return {};
+  if (problem.contacts.size() == 0) return {};
   if (!prepare(problem, context, gamma)) {
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }

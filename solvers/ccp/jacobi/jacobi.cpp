@@ -42,8 +42,8 @@ bool Jacobi::prepare(const CcpProblem& problem, const SolveContext& context, std
 void Jacobi::prepare_steps(const CcpProblem& problem) {
   contacts_of_.assign(problem.bodies(), 0);
   for (const CcpContact& c : problem.contacts) ++contacts_of_[c.a], ++contacts_of_[c.b];
-  steps_.resize(problem.blocks());
-  delassus_.for_chunks(problem.blocks(), [&](std::size_t first, std::size_t last) {
+  steps_.resize(problem.contacts.size());
+  delassus_.for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       // The block of a problem in which both bodies are as much lighter as they have contacts.
       CcpContact contact = problem.contacts[i];
@@ -69,7 +69,7 @@ void Jacobi::iterate(std::span<double> gamma) {
   delassus_.for_chunks(slots_.size(), [&](std::size_t first, std::size_t last) {
     std::fill(slots_.data() + first, slots_.data() + last, Twist{});
   });
-  delassus_.for_chunks(problem.blocks(), [&](std::size_t first, std::size_t last) {
+  delassus_.for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const CcpContact& c = problem.contacts[i];
       const Vec3 g = load_block(gamma, i);
@@ -87,7 +87,7 @@ void Jacobi::iterate(std::span<double> gamma) {
 
 SolveSummary Jacobi::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
   SCREE_REQUIRE(gamma.size() == problem.rows(), "jacobi: gamma needs three numbers a contact");
-  if (problem.blocks() == 0) return {};
+  if (problem.contacts.size() == 0) return {};
   if (!prepare(problem, context, gamma)) {
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }

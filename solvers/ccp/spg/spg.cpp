@@ -77,7 +77,7 @@ bool Spg::prepare(const CcpProblem& problem, const SolveContext& context, std::s
 }
 
 void Spg::prepare_metric(const CcpProblem& problem) {
-  const std::size_t m = problem.blocks();
+  const std::size_t m = problem.contacts.size();
   metric_.resize(m);
   double mean = 0.0;
   for (const double trace : delassus_.traces()) mean += trace;
@@ -129,7 +129,7 @@ Spg::Sums Spg::contact_range(std::size_t first, std::size_t last) {
 
 // Moves x by what is pending; makes d and its sums in slots_ from w.
 Spg::Sums Spg::contact_pass() {
-  const std::size_t m = delassus_.problem().blocks();
+  const std::size_t m = delassus_.problem().contacts.size();
   const bool compliant = !delassus_.problem().compliance.empty();
   delassus_.for_chunks(slots_.size(), [&](std::size_t first, std::size_t last) {
     std::fill(slots_.data() + first, slots_.data() + last, Twist{});
@@ -168,8 +168,8 @@ double Spg::body_pass() {
 // (N d)^T D^-1 (N d) [J].
 double Spg::product_norm() {
   const CcpProblem& problem = delassus_.problem();
-  partial_.resize(Executor::chunk_count(problem.blocks(), DelassusOperator::kGrain));
-  delassus_.for_chunks(problem.blocks(), [&](std::size_t first, std::size_t last) {
+  partial_.resize(Executor::chunk_count(problem.contacts.size(), DelassusOperator::kGrain));
+  delassus_.for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
     for (std::size_t i = first; i < last; ++i) {
       const CcpContact& c = problem.contacts[i];
@@ -243,7 +243,7 @@ double Spg::look(SolveSummary& summary, double tolerance) {
 
 SolveSummary Spg::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
   SCREE_REQUIRE(gamma.size() == problem.rows(), "spg: gamma needs three numbers a contact");
-  if (problem.blocks() == 0) return {};
+  if (problem.contacts.size() == 0) return {};
   if (!prepare(problem, context, gamma)) {
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }

@@ -27,7 +27,7 @@ constexpr int kLastLevel = 8;
 // error_ for the current u_ and s_; returns the greatest.
 double CoulombFixedPoint::update_errors(const CcpProblem& problem) {
   double worst = 0.0;
-  for (std::size_t i = 0; i < problem.blocks(); ++i) {
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     error_[i] = problem.contacts[i].friction * std::hypot(u_[3 * i + 1], u_[3 * i + 2]) - s_[i];
     worst = std::max(worst, std::abs(error_[i]));
   }
@@ -36,7 +36,7 @@ double CoulombFixedPoint::update_errors(const CcpProblem& problem) {
 
 CoulombSummary CoulombFixedPoint::solve(StepServices& services, const CcpProblem& problem, DelassusOperator& delassus,
                                         const CoulombLimits& limits, std::span<double> gamma) {
-  const std::size_t m = problem.blocks();
+  const std::size_t m = problem.contacts.size();
   r_.assign(problem.r.begin(), problem.r.end());
   u_.resize(3 * m);
   s_.resize(m);

@@ -98,7 +98,7 @@ void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
   gamma_.assign(problem.rows(), 0.0);
   if (!options_.warm_start || memory_.size() == 0) return;
   find_keys(bodies);
-  world_impulse_.resize(problem.blocks());
+  world_impulse_.resize(problem.contacts.size());
   memory_.recall(keys_, world_impulse_);
   // A resting contact's impulse goes with the step.
   const double scale = dt / memory_dt_;
@@ -106,7 +106,7 @@ void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
     const std::size_t i = assembly_.block_of()[k];
     store_block(gamma_, i, in_frame(problem.contacts[i], scale * world_impulse_[k]));
   }
-  if (problem.blocks() < kManyRecords) return;
+  if (problem.contacts.size() < kManyRecords) return;
   // The solver needs the room; remember() makes them anew.
   memory_.clear();
   release(keys_, world_impulse_);
@@ -116,7 +116,7 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
   const CcpProblem problem = assembly_.problem();
   recall(bodies, problem, dt);
   SolveSummary solved;
-  if (problem.blocks() > 0) {
+  if (problem.contacts.size() > 0) {
     if (options_.coulomb) {
       delassus_.bind(problem, &services.executor());
       const dvi::CoulombSummary outer = coulomb_.solve(services, problem, delassus_, options_.coulomb_limits, gamma_);
@@ -137,13 +137,13 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
     velocity_[body] += w_[k].linear;
     angular_velocity_[body] += w_[k].angular;
   }
-  if (problem.blocks() >= kManyRecords) release_step();
+  if (problem.contacts.size() >= kManyRecords) release_step();
   return solved;
 }
 
 // While velocity_ is still that of the free motion.
 void Dvi::keep_results(const CcpProblem& problem) {
-  const std::size_t m = problem.blocks();
+  const std::size_t m = problem.contacts.size();
   impulse_.resize(m);
   before_.resize(m);
   after_.resize(m);
@@ -163,7 +163,7 @@ void Dvi::keep_results(const CcpProblem& problem) {
 void Dvi::remember(const BodyView& bodies, const CcpProblem& problem, double dt) {
   if (!options_.warm_start) return;
   find_keys(bodies);
-  world_impulse_.resize(problem.blocks());
+  world_impulse_.resize(problem.contacts.size());
   for (std::size_t k = 0; k < world_impulse_.size(); ++k) {
     world_impulse_[k] = in_world(problem.contacts[assembly_.block_of()[k]], impulse_[k]);
   }

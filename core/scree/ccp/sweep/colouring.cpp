@@ -6,7 +6,7 @@
 namespace scree::sweep {
 
 void Colouring::build(const CcpProblem& problem) {
-  const std::size_t m = problem.blocks();
+  const std::size_t m = problem.contacts.size();
   const std::size_t chunk_count = (m + kChunkLength - 1) / kChunkLength;
   colours_of_body_.assign(problem.bodies(), 0);
   colour_.resize(chunk_count);

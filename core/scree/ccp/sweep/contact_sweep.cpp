@@ -13,7 +13,7 @@ void put(Lanes3& lanes, int k, const Vec3& v) { lanes.x[k] = v.x, lanes.y[k] = v
 
 void ContactSweep::bind(const CcpProblem& problem, const Settings& settings) {
   coloured_ = settings.coloured;
-  grouping_.build(problem, coloured_ ? sweep::Colouring::kChunkLength : std::max<std::size_t>(1, problem.blocks()));
+  grouping_.build(problem, coloured_ ? sweep::Colouring::kChunkLength : std::max<std::size_t>(1, problem.contacts.size()));
   if (coloured_) colouring_.build(problem);
   bind_bodies(problem);
   bind_groups(problem, settings);

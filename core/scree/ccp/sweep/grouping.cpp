@@ -9,7 +9,7 @@ constexpr std::size_t kQueue = 48;
 }
 
 void Grouping::build(const CcpProblem& problem, std::size_t chunk) {
-  const std::size_t m = problem.blocks();
+  const std::size_t m = problem.contacts.size();
   groups.clear();
   first.clear();
   std::array<std::uint32_t, kQueue> queue{};
