@@ -26,7 +26,7 @@ void DelassusOperator::body_velocities(std::span<const double> gamma, std::span<
     std::fill(slots_.begin() + static_cast<std::ptrdiff_t>(first), slots_.begin() + static_cast<std::ptrdiff_t>(last),
               Twist{});
   });
-  for_chunks(problem_->blocks(), [&](std::size_t first, std::size_t last) {
+  for_chunks(problem_->contacts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const SlotPair slot = partition_.slots()[i];
       add_impulse(problem_->contacts[i], load_block(gamma, i), slots_[slot.a], slots_[slot.b]);
@@ -49,7 +49,7 @@ void DelassusOperator::reduce_slots(std::span<const Twist> slots, std::span<Twis
 void DelassusOperator::contact_velocities(std::span<const Twist> w, std::span<const double> gamma,
                                           std::span<double> out) const {
   const bool compliant = !problem_->compliance.empty();
-  for_chunks(problem_->blocks(), [&](std::size_t first, std::size_t last) {
+  for_chunks(problem_->contacts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const CcpContact& c = problem_->contacts[i];
       Vec3 u = relative_velocity(c, w[c.a], w[c.b]);
@@ -67,8 +67,8 @@ void DelassusOperator::apply(std::span<const double> gamma, std::span<double> ou
 double DelassusOperator::objective(std::span<const double> gamma) {
   body_velocities(gamma, w_);
   const bool compliant = !problem_->compliance.empty();
-  partial_.assign(Executor::chunk_count(problem_->blocks(), kGrain), 0.0);
-  for_chunks(problem_->blocks(), [&](std::size_t first, std::size_t last) {
+  partial_.assign(Executor::chunk_count(problem_->contacts.size(), kGrain), 0.0);
+  for_chunks(problem_->contacts.size(), [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
     for (std::size_t i = first; i < last; ++i) {
       const CcpContact& c = problem_->contacts[i];

@@ -90,14 +90,14 @@ struct CcpMatrix {
 
 /// The problem of one step. All spans stay valid during a solve.
 struct CcpProblem {
-  std::span<const double> inverse_mass;   ///< per body [1/kg]
-  std::span<const Mat3> inverse_inertia;  ///< per body, world frame [1/(kg m2)]
-  std::span<const CcpContact> contacts;   ///< m contacts
-  std::span<const double> r;              ///< one a row [m/s]
-  std::span<const double> compliance;     ///< E, one a row [1/kg]; empty for none
-  std::span<const CcpBlock> blocks = {};  ///< after the contacts, in order of first_row, without holes
-  std::span<const CcpRow> block_rows;     ///< Jacobian of the blocks; empty with a matrix
-  CcpMatrix matrix = {};                  ///< N - E, where there are no bodies and no contacts
+  std::span<const double> inverse_mass;     ///< per body [1/kg]
+  std::span<const Mat3> inverse_inertia;    ///< per body, world frame [1/(kg m2)]
+  std::span<const CcpContact> contacts;     ///< m contacts
+  std::span<const double> r;                ///< one a row [m/s]
+  std::span<const double> compliance;       ///< E, one a row [1/kg]; empty for none
+  std::span<const CcpBlock> blocks = {};    ///< after the contacts, in order of first_row, without holes
+  std::span<const CcpRow> block_rows = {};  ///< Jacobian of the blocks; empty with a matrix
+  CcpMatrix matrix = {};                    ///< N - E, where there are no bodies and no contacts
 
   [[nodiscard]] std::size_t bodies() const { return inverse_mass.size(); }
   /// Rows of contacts; those of the blocks follow.
