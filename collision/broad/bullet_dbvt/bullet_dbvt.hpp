@@ -9,6 +9,8 @@
 
 namespace scree {
 
+class BulletProxies;
+
 /// Boxes are followed by their key: those that moved out of their enlarged box
 /// are put into the tree again, new keys are added, missing ones removed. What
 /// the tree remembers does not show in the result, so it is not saved.
@@ -19,12 +21,9 @@ class BulletDbvt : public BroadPhase {
   void find_pairs(const BoxView& boxes, const Executor& executor, std::vector<CandidatePair>& out) override;
 
  private:
-  struct World;
   void choose_scale(const BoxView& boxes);
-  void update(const BoxView& boxes);
 
-  std::unique_ptr<World> world_;
-  std::vector<std::uint32_t> order_;  // boxes by key
+  std::unique_ptr<BulletProxies> proxies_;
   std::vector<double> size_;
 };
 
