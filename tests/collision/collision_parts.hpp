@@ -1,0 +1,42 @@
+// What the tests of whole collision chains share: phases as a scene loads them, and contacts compared bit by bit.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "scree/collision/contact.hpp"
+#include "scree/config/options.hpp"
+#include "scree/host/plugin_host.hpp"
+
+namespace scree::test {
+
+/// The plugin of that name, from the folder that the build put them in, with all its defaults.
+template <class Interface>
+std::unique_ptr<Interface> make_plugin(const std::string& name) {
+  static PluginHost* const host = [] {
+    auto* made = new PluginHost;  // plugins are never unloaded
+    made->search(SCREE_PLUGINS);
+    return made;
+  }();
+  auto plugin = host->entry(Interface::kKind, name, {}).make(Options{});
+  return std::unique_ptr<Interface>{dynamic_cast<Interface*>(plugin.release())};
+}
+
+/// Whether two lists hold the same contacts, in the same order, with the same bits.
+inline bool same_bits(std::span<const Contact> l, std::span<const Contact> r) {
+  const auto same = [](const Contact& x, const Contact& y) {
+    const auto bits = [](const Contact& c) {
+      return std::array<double, 7>{c.point.x, c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, c.gap};
+    };
+    const auto of_x = bits(x), of_y = bits(y);
+    return x.a == y.a && x.b == y.b && x.primitive_a == y.primitive_a && x.primitive_b == y.primitive_b &&
+           x.feature == y.feature && std::memcmp(of_x.data(), of_y.data(), sizeof of_x) == 0;
+  };
+  return l.size() == r.size() && std::equal(l.begin(), l.end(), r.begin(), same);
+}
+
+}  // namespace scree::test
