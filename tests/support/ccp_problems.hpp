@@ -19,8 +19,16 @@ struct TestingProblem {
   std::vector<CcpContact> contacts;
   std::vector<double> r;
   std::vector<double> compliance;
+  std::vector<CcpBlock> blocks;
+  std::vector<CcpRow> block_rows;
+  std::vector<std::uint32_t> matrix_first, matrix_column;
+  std::vector<std::size_t> matrix_value;
+  std::vector<double> matrix_values;
 
-  [[nodiscard]] CcpProblem view() const { return {inverse_mass, inverse_inertia, contacts, r, compliance}; }
+  [[nodiscard]] CcpProblem view() const {
+    return {inverse_mass, inverse_inertia, contacts,   r,
+            compliance,   blocks,          block_rows, {matrix_first, matrix_column, matrix_value, matrix_values}};
+  }
 
   /// Adds a body; returns its index.
   std::uint32_t add_body(double mass, const Vec3& inertia) {
@@ -39,6 +47,14 @@ struct TestingProblem {
     const ContactFrame frame = contact_frame(normal);
     contacts.push_back({frame.normal, frame.tangent1, arm_a, arm_b, friction, a, b});
     r.insert(r.end(), {velocity.x, velocity.y, velocity.z});
+  }
+  /// Adds a block with its Jacobian and row constants, after all contacts; its first row is filled in.
+  void add_block(CcpBlock block, const std::vector<CcpRow>& jacobian, const std::vector<double>& velocity) {
+    block.rows = static_cast<std::uint8_t>(jacobian.size());
+    block.first_row = static_cast<std::uint32_t>(block_rows.size());
+    blocks.push_back(block);
+    block_rows.insert(block_rows.end(), jacobian.begin(), jacobian.end());
+    r.insert(r.end(), velocity.begin(), velocity.end());
   }
 };
 

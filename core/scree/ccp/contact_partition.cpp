@@ -1,6 +1,7 @@
 #include "scree/ccp/contact_partition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace scree {
@@ -11,7 +12,12 @@ constexpr std::uint32_t kNoRun = std::numeric_limits<std::uint32_t>::max();
 
 void ContactPartition::build(const CcpProblem& problem) {
   const std::size_t n = problem.bodies();
-  const std::size_t m = problem.contacts.size();
+  const std::size_t m = problem.matrix.empty() ? problem.units() : 0;
+  const std::size_t contacts = problem.contacts.size();
+  const auto bodies_of = [&](std::size_t unit) {
+    if (unit < contacts) return std::array{problem.contacts[unit].a, problem.contacts[unit].b};
+    return std::array{problem.blocks[unit - contacts].a, problem.blocks[unit - contacts].b};
+  };
   const auto movable = [&](std::uint32_t body) { return problem.inverse_mass[body] > 0.0; };
   slots_.resize(m);
   first_slot_.assign(n + 1, 0);
@@ -21,7 +27,7 @@ void ContactPartition::build(const CcpProblem& problem) {
   // Count the runs that touch each body, then number the slots body by body.
   for (std::size_t i = 0; i < m; ++i) {
     const auto run = static_cast<std::uint32_t>(i / kRunLength);
-    for (const std::uint32_t body : {problem.contacts[i].a, problem.contacts[i].b}) {
+    for (const std::uint32_t body : bodies_of(i)) {
       if (!movable(body) || last_run_[body] == run) continue;
       last_run_[body] = run;
       ++first_slot_[body + 1];
@@ -42,8 +48,9 @@ void ContactPartition::build(const CcpProblem& problem) {
   };
   for (std::size_t i = 0; i < m; ++i) {
     const auto run = static_cast<std::uint32_t>(i / kRunLength);
-    slots_[i].a = slot_of(problem.contacts[i].a, run);
-    slots_[i].b = slot_of(problem.contacts[i].b, run);
+    const auto [a, b] = bodies_of(i);
+    slots_[i].a = slot_of(a, run);
+    slots_[i].b = slot_of(b, run);
   }
 }
 

@@ -1,11 +1,12 @@
 // ContactPartition: lets several threads add impulses to bodies at once, with
 // the same bits for any number of them.
 //
-// The contacts are cut into runs of fixed length. A body touched by r runs gets
-// r slots, one a run, in the order of the runs; the body's sum is that of its
-// slots in this order. Runs never share a slot, so they need no locks, and who
-// executes a run does not show in the result. Immovable bodies get one slot a
-// run that nobody reads. With bodies in spatial order few bodies are shared.
+// The units, contacts and then blocks, are cut into runs of fixed length. A body
+// touched by r runs gets r slots, one a run, in the order of the runs; the body's
+// sum is that of its slots in this order. Runs never share a slot, so they need
+// no locks, and who executes a run does not show in the result. Immovable bodies
+// get one slot a run that nobody reads. With bodies in spatial order few bodies
+// are shared.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +17,17 @@
 
 namespace scree {
 
-/// Where a contact puts the impulses on its bodies.
+/// Where a unit puts the impulses on its bodies.
 struct SlotPair {
   std::uint32_t a = 0;  ///< index into an array of slot_count() sums
   std::uint32_t b = 0;
 };
 
-/// The runs of a problem's contacts and the slots of its bodies. Keeps its
+/// The runs of a problem's units and the slots of its bodies; empty for a problem with a matrix. Keeps its
 /// memory between calls.
 class ContactPartition {
  public:
-  /// Contacts of a run: long, so that few bodies are shared; short enough for
+  /// Units of a run: long, so that few bodies are shared; short enough for
   /// some runs a thread on 10 000 contacts.
   static constexpr std::size_t kRunLength = 4096;
 

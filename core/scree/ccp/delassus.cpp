@@ -6,7 +6,25 @@
 
 namespace scree {
 
+namespace {
+
+/// The blocks follow each other without holes and have sizes that there are.
+bool blocks_fit(const CcpProblem& problem) {
+  std::size_t rows = 0;
+  for (const CcpBlock& block : problem.blocks) {
+    const bool size = block.rows >= 1 && block.rows <= CcpBlock::kMostRows;
+    if (!size || (block.kind == CcpKind::cone && block.rows == 4) || block.first_row != rows) return false;
+    rows += block.rows;
+  }
+  if (problem.matrix.empty()) return problem.block_rows.size() == rows;
+  return problem.bodies() == 0 && problem.contacts.empty() && problem.block_rows.empty() &&
+         problem.matrix.first.size() == problem.blocks.size() + 1;
+}
+
+}  // namespace
+
 void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor) {
+  SCREE_REQUIRE(blocks_fit(problem), "DelassusOperator: the blocks of the CCP do not fit each other");
   SCREE_REQUIRE(problem.inverse_inertia.size() == problem.bodies() && problem.r.size() == problem.rows() &&
                     (problem.compliance.empty() || problem.compliance.size() == problem.rows()),
                 "DelassusOperator: the spans of the CCP differ in length");
@@ -15,22 +33,33 @@ void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor)
   partition_.build(problem);
   slots_.resize(partition_.slot_count());
   w_.resize(problem.bodies());
-  traces_.resize(problem.contacts.size());
-  for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) traces_[i] = diagonal_trace(problem, i);
+  partial_.resize(Executor::chunk_count(problem.units(), kGrain));
+  traces_.resize(problem.units());
+  for_chunks(problem.units(), [&](std::size_t first, std::size_t last) {
+    for_units(
+        first, last, [&](std::size_t i) { traces_[i] = diagonal_trace(problem, i); },
+        [&](std::size_t i) { traces_[problem.contacts.size() + i] = diagonal_trace_of_block(problem, i); });
   });
 }
 
 void DelassusOperator::body_velocities(std::span<const double> gamma, std::span<Twist> w) {
+  if (!problem_->matrix.empty()) return;
   for_chunks(slots_.size(), [&](std::size_t first, std::size_t last) {
     std::fill(slots_.begin() + static_cast<std::ptrdiff_t>(first), slots_.begin() + static_cast<std::ptrdiff_t>(last),
               Twist{});
   });
-  for_chunks(problem_->contacts.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const SlotPair slot = partition_.slots()[i];
-      add_impulse(problem_->contacts[i], load_block(gamma, i), slots_[slot.a], slots_[slot.b]);
-    }
+  const SlotPair* const slots = partition_.slots().data();
+  for_chunks(problem_->units(), [&](std::size_t first, std::size_t last) {
+    for_units(
+        first, last,
+        [&](std::size_t i) {
+          add_impulse(problem_->contacts[i], load_block(gamma, i), slots_[slots[i].a], slots_[slots[i].b]);
+        },
+        [&](std::size_t i) {
+          const CcpBlock& block = problem_->blocks[i];
+          const SlotPair slot = slots[problem_->contacts.size() + i];
+          add_impulse(jacobian_of(*problem_, block), rows_of(*problem_, block, gamma), slots_[slot.a], slots_[slot.b]);
+        });
   });
   reduce_slots(slots_, w);
 }
@@ -46,37 +75,62 @@ void DelassusOperator::reduce_slots(std::span<const Twist> slots, std::span<Twis
   });
 }
 
-void DelassusOperator::contact_velocities(std::span<const Twist> w, std::span<const double> gamma,
-                                          std::span<double> out) const {
+void DelassusOperator::block_velocity(std::size_t block, std::span<const Twist> w, std::span<const double> gamma,
+                                      std::span<double> u) const {
+  const CcpBlock& b = problem_->blocks[block];
+  if (problem_->matrix.empty()) {
+    relative_velocity(jacobian_of(*problem_, b), w[b.a], w[b.b], u);
+  } else {
+    multiply_block_row(*problem_, block, gamma, u);
+  }
+  if (problem_->compliance.empty()) return;
+  const std::size_t row = first_row(*problem_, b);
+  for (std::size_t k = 0; k < b.rows; ++k) u[k] += problem_->compliance[row + k] * gamma[row + k];
+}
+
+void DelassusOperator::row_velocities(std::span<const Twist> w, std::span<const double> gamma,
+                                      std::span<double> out) const {
   const bool compliant = !problem_->compliance.empty();
-  for_chunks(problem_->contacts.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const CcpContact& c = problem_->contacts[i];
-      Vec3 u = relative_velocity(c, w[c.a], w[c.b]);
-      if (compliant) u += hadamard(load_block(problem_->compliance, i), load_block(gamma, i));
-      store_block(out, i, u);
-    }
+  for_chunks(problem_->units(), [&](std::size_t first, std::size_t last) {
+    for_units(
+        first, last,
+        [&](std::size_t i) {
+          const CcpContact& c = problem_->contacts[i];
+          Vec3 u = relative_velocity(c, w[c.a], w[c.b]);
+          if (compliant) u += hadamard(load_block(problem_->compliance, i), load_block(gamma, i));
+          store_block(out, i, u);
+        },
+        [&](std::size_t i) { block_velocity(i, w, gamma, rows_of(*problem_, problem_->blocks[i], out)); });
   });
 }
 
 void DelassusOperator::apply(std::span<const double> gamma, std::span<double> out) {
   body_velocities(gamma, w_);
-  contact_velocities(w_, gamma, out);
+  row_velocities(w_, gamma, out);
 }
 
 double DelassusOperator::objective(std::span<const double> gamma) {
   body_velocities(gamma, w_);
   const bool compliant = !problem_->compliance.empty();
-  partial_.assign(Executor::chunk_count(problem_->contacts.size(), kGrain), 0.0);
-  for_chunks(problem_->contacts.size(), [&](std::size_t first, std::size_t last) {
+  for_chunks(problem_->units(), [&](std::size_t first, std::size_t last) {
     double sum = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      const CcpContact& c = problem_->contacts[i];
-      const Vec3 g = load_block(gamma, i);
-      Vec3 u = relative_velocity(c, w_[c.a], w_[c.b]);
-      if (compliant) u += hadamard(load_block(problem_->compliance, i), g);
-      sum += dot(g, 0.5 * u + load_block(problem_->r, i));
-    }
+    for_units(
+        first, last,
+        [&](std::size_t i) {
+          const CcpContact& c = problem_->contacts[i];
+          const Vec3 g = load_block(gamma, i);
+          Vec3 u = relative_velocity(c, w_[c.a], w_[c.b]);
+          if (compliant) u += hadamard(load_block(problem_->compliance, i), g);
+          sum += dot(g, 0.5 * u + load_block(problem_->r, i));
+        },
+        [&](std::size_t i) {
+          BlockVector u;
+          block_velocity(i, w_, gamma, u);
+          const std::size_t row = first_row(*problem_, problem_->blocks[i]);
+          for (std::size_t k = 0; k < problem_->blocks[i].rows; ++k) {
+            sum += gamma[row + k] * (0.5 * u[k] + problem_->r[row + k]);
+          }
+        });
     partial_[first / kGrain] = sum;
   });
   double total = 0.0;

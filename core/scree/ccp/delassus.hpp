@@ -1,9 +1,12 @@
 // DelassusOperator: N = D^T M^-1 D + E of a CcpProblem, never formed.
 //
 // N g is two passes: w = M^-1 D g, body velocities that the impulses cause, then
-// D^T w + E g, contact velocities. Solvers that work with w (all the fast ones
-// do) call the halves themselves. Results have the same bits for any number of
+// D^T w + E g, row velocities. Solvers that work with w (all the fast ones
+// do) call the halves themselves. For a problem with an explicit matrix w is empty
+// and the second half does all. Results have the same bits for any number of
 // threads.
+//
+// A unit is a contact or a block: contacts first, then blocks.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "scree/ccp/block_rows.hpp"
 #include "scree/ccp/contact_partition.hpp"
 #include "scree/ccp/problem.hpp"
 #include "scree/ccp/twist.hpp"
@@ -22,24 +26,28 @@ namespace scree {
 /// keeps its memory between problems.
 class DelassusOperator {
  public:
-  /// Contacts or bodies per chunk of the loops below.
+  /// Units or bodies per chunk of the loops below.
   static constexpr std::size_t kGrain = ContactPartition::kRunLength;
 
-  /// `executor` may be null: everything runs on the calling thread.
+  /// `executor` may be null: everything runs on the calling thread. Nothing after this asks for memory. @throws
+  /// std::logic_error for spans that do not fit each other and blocks with holes between their rows.
   void bind(const CcpProblem& problem, const Executor* executor);
 
   [[nodiscard]] const CcpProblem& problem() const { return *problem_; }
   [[nodiscard]] const ContactPartition& partition() const { return partition_; }
-  /// trace(N_ii) of each contact [1/kg].
+  /// trace(N_ii) of each unit [1/kg].
   [[nodiscard]] std::span<const double> traces() const { return traces_; }
 
-  /// w = M^-1 D gamma [m/s, rad/s], one Twist per body.
+  /// w = M^-1 D gamma [m/s, rad/s], one Twist per body; with a matrix there are none, and nothing is done.
   void body_velocities(std::span<const double> gamma, std::span<Twist> w);
   /// The last half of body_velocities(): w = M^-1 times the sums of each body's
   /// slots [N s].
   void reduce_slots(std::span<const Twist> slots, std::span<Twist> w) const;
-  /// out = D^T w + E gamma [m/s].
-  void contact_velocities(std::span<const Twist> w, std::span<const double> gamma, std::span<double> out) const;
+  /// out = D^T w + E gamma [m/s], one number a row, for the body velocities w of gamma.
+  void row_velocities(std::span<const Twist> w, std::span<const double> gamma, std::span<double> out) const;
+  /// The same for the rows of one block, counted from 0 after the contacts.
+  void block_velocity(std::size_t block, std::span<const Twist> w, std::span<const double> gamma,
+                      std::span<double> u) const;
   /// out = N gamma [m/s].
   void apply(std::span<const double> gamma, std::span<double> out);
 
@@ -56,6 +64,14 @@ class DelassusOperator {
       return;
     }
     for (std::size_t first = 0; first < count; first += kGrain) body(first, std::min(first + kGrain, count));
+  }
+
+  /// Runs contact(i) for the contacts, block(j) for the blocks among units first .. last - 1.
+  template <class Contact, class Block>
+  void for_units(std::size_t first, std::size_t last, const Contact& contact, const Block& block) const {
+    const std::size_t contacts = problem_->contacts.size();
+    for (std::size_t i = first; i < std::min(last, contacts); ++i) contact(i);
+    for (std::size_t i = std::max(first, contacts); i < last; ++i) block(i - contacts);
   }
 
  private:
