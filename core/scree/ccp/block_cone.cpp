@@ -59,7 +59,7 @@ double nearest_normal(std::span<const Part> parts, double d_n, double g_n) {
       if (at < break_point) break_point = at, next = k;
     }
     const double n = numerator / denominator;
-    if (n <= break_point) return n;
+    if (!(n > break_point)) return n;  // also when it is not a number
     beyond[next] = false;
   }
 }

@@ -279,6 +279,17 @@ TEST_F(BlockCone, rows_of_other_kinds_are_cut_one_by_one) {
   EXPECT_EQ(g, (std::vector<double>{0.0, 1.0, 0.0}));
 }
 
+TEST_F(BlockCone, projection_of_what_is_no_number_ends_and_shows_it) {
+  for (const std::uint8_t rows : kSizes) {
+    for (std::size_t k = 0; k < rows; ++k) {
+      std::vector<double> g(rows, 0.5);
+      g[k] = std::nan("");
+      project_block({.kind = CcpKind::cone, .rows = rows, .friction = 0.3, .spinning = 0.3, .rolling = 0.3}, g);
+      EXPECT_TRUE(std::any_of(g.begin(), g.end(), [](double x) { return std::isnan(x); })) << int{rows} << ", " << k;
+    }
+  }
+}
+
 TEST_F(BlockCone, violation_is_the_largest_excess) {
   const CcpBlock b{.kind = CcpKind::cone, .rows = 6, .friction = 0.5, .spinning = 0.1, .rolling = 0.2};
   // Beyond by 5 - 0.5, 0.3 - 0.1 and 0 - 0.2.

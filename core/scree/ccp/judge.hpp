@@ -1,11 +1,13 @@
 // The one judge of all CCP solvers.
 //
 //     residual = max_i || g_i - P_i(g_i - s_i (N g + r)_i) || / s_i,
-//     s_i = 3 / trace(N_ii)
+//     s_i = rows_i / trace(N_ii)
 //
 // a velocity error [m/s] that is zero exactly at a solution: the natural map of
-// the complementarity problem, block by block in the block's own mass (Tasora &
-// Anitescu 2011, eq. 39, made independent of units and of mass ratios).
+// the complementarity problem, contact by contact and block by block in its own
+// mass (Tasora & Anitescu 2011, eq. 39, made independent of units and of mass
+// ratios). P_i projects on what the unit's impulses may be: a cone, an interval a
+// row, everything. Units with a zero N_ii, which no impulse changes, are left out.
 #pragma once
 
 #include <span>
@@ -20,15 +22,24 @@ namespace scree {
 struct CcpFigures {
   double residual = 0.0;           ///< as above [m/s]
   double relative_residual = 0.0;  ///< ||gamma - P(gamma - u)||_2 / ||r||_2, unscaled numbers [1]
-  /// The same for exact Coulomb friction: u_n + mu ||u_t|| in place of u_n (De Saxce & Feng 1998) [1].
-  double coulomb_error = 0.0;
-  double objective = 0.0;  ///< 1/2 gamma^T N gamma + r^T gamma [J]
+  /// The same two for exact Coulomb friction: u_n + mu ||u_t|| + spinning |u_s| + rolling ||u_rho|| in place of the u_n
+  /// of a cone (De Saxce & Feng 1998).
+  double coulomb_residual = 0.0;  ///< [m/s]
+  double coulomb_error = 0.0;     ///< [1]
+  double objective = 0.0;         ///< 1/2 gamma^T N gamma + r^T gamma [J]
+  /// How far an impulse is outside its bounds at most; 0 for none [N s].
+  double impulse_violation = 0.0;
+  /// How far a velocity is outside K* at most [m/s]: u_n below mu ||u_t|| + ..., u < 0 of a row that can only push, any u of
+  /// a row without bounds.
+  double velocity_violation = 0.0;
+  /// Sum of |gamma_i . u_i| over the units [J]; a bound of a box counts as the impulse's zero.
+  double complementarity_gap = 0.0;
 };
 
 /// Computes residuals; keeps its memory between problems.
 class CcpJudge {
  public:
-  /// The residual of `gamma` (3 m) [N s] for `problem` [m/s]; infinite when a
+  /// The residual of `gamma` (one number a row) [N s] for `problem` [m/s]; infinite when a
   /// number is not finite. `executor` may be null.
   double residual(const CcpProblem& problem, std::span<const double> gamma, const Executor* executor);
   /// Everything about `gamma`. The relative figures mix impulses [N s] with velocities [m/s], as the literature on

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "support/ccp_matrix_problem.hpp"
+#include "support/ccp_planted_problems.hpp"
 #include "support/ccp_problems.hpp"
 
 namespace scree {
 namespace {
 
+using test::planted_problem;
+using test::PlantedProblem;
 using test::random_problem;
 using test::sphere_on_floor;
 using test::TestingProblem;
@@ -79,6 +83,141 @@ TEST(ccp_figures, of_a_problem_without_r_are_not_divided_by_it) {
   const TestingProblem t = sphere_on_floor(0.3, 0.1, 0.5, {0.0, 0.0, 0.0});
   EXPECT_EQ(figures_of(t, {0.0, 0.0, 0.0}).relative_residual, 0.0);
   EXPECT_GT(figures_of(t, {0.1, 0.0, 0.0}).relative_residual, 0.0);
+}
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// One body of mass `m` that a block moves along x, y, z and turns about x, y, z with arms of 1 m: N = 1/m. r = `u`.
+TestingProblem one_block(double m, const CcpBlock& block, const std::vector<double>& u) {
+  constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  TestingProblem t;
+  const std::uint32_t world = t.add_immovable(), body = t.add_body(m, {m, m, m});
+  CcpBlock b = block;
+  b.a = world, b.b = body;
+  std::vector<CcpRow> rows(u.size());
+  for (std::size_t k = 0; k < u.size(); ++k) (k < 3 ? rows[k].b.linear : rows[k].b.angular) = kAxes[k % 3];
+  t.add_block(b, rows, u);
+  return t;
+}
+
+// N = 1/m and s = m: the natural map of a row is an interval's, a velocity whatever the mass.
+TEST(ccp_figures, rows_without_bounds_and_with_one_or_two) {
+  const double m = 0.3;
+  const auto residual = [&](const CcpBlock& block, double r, double g) {
+    return ccp_residual(one_block(m, block, {r}).view(), std::vector<double>{g});
+  };
+  const CcpBlock free{.kind = CcpKind::free};
+  EXPECT_NEAR(residual(free, -2.0, 0.0), 2.0, 1e-15);
+  EXPECT_NEAR(residual(free, -2.0, 2.0 * m), 0.0, 1e-15);
+  EXPECT_NEAR(residual(free, 2.0, -2.0 * m), 0.0, 1e-15);
+
+  const CcpBlock push{.kind = CcpKind::nonnegative};
+  EXPECT_NEAR(residual(push, -2.0, 0.0), 2.0, 1e-15);
+  EXPECT_NEAR(residual(push, -2.0, 2.0 * m), 0.0, 1e-15);
+  EXPECT_NEAR(residual(push, 2.0, 0.0), 0.0, 1e-15);
+  EXPECT_NEAR(residual(push, 2.0, -2.0 * m), 2.0, 1e-15);  // it must not pull: P(g) = 0
+
+  // A motor that stops 2 m/s needs 2 m; it has less, and leaves the rest.
+  const CcpBlock motor{.kind = CcpKind::box, .lower = -0.5 * m, .upper = 1.5 * m};
+  EXPECT_NEAR(residual(motor, -2.0, 1.5 * m), 0.0, 1e-15);
+  EXPECT_NEAR(residual(motor, -1.0, m), 0.0, 1e-15);
+  EXPECT_NEAR(residual(motor, 2.0, -0.5 * m), 0.0, 1e-15);
+  EXPECT_NEAR(residual(motor, -2.0, 0.0), 1.5, 1e-15);  // P(0 + 2 m) = 1.5 m, over s = m
+}
+
+TEST(ccp_figures, violations_and_gap_of_rows) {
+  const double m = 0.5;
+  const auto figures = [&](const CcpBlock& block, double r, double g) {
+    return figures_of(one_block(m, block, {r}), {g});
+  };
+  // Pulls with 1 N s: u = -1 - 2.
+  const CcpFigures pulling = figures({.kind = CcpKind::nonnegative}, -1.0, -1.0);
+  EXPECT_EQ(pulling.impulse_violation, 1.0);
+  EXPECT_EQ(pulling.velocity_violation, 3.0);
+  EXPECT_EQ(pulling.complementarity_gap, 3.0);
+  const CcpFigures free = figures({.kind = CcpKind::free}, 5.0, -1.0);
+  EXPECT_EQ(free.impulse_violation, 0.0);
+  EXPECT_EQ(free.velocity_violation, 3.0);
+  // At its lower bound and still moving up: complementary, and no velocity is wrong for a box.
+  const CcpFigures held = figures({.kind = CcpKind::box, .lower = -1.0, .upper = kInfinity}, 5.0, -1.0);
+  EXPECT_EQ(held.residual, 0.0);
+  EXPECT_EQ(held.velocity_violation, 0.0);
+  EXPECT_EQ(held.complementarity_gap, 0.0);
+  const CcpFigures inside = figures({.kind = CcpKind::box, .lower = -3.0, .upper = 3.0}, 5.0, -1.0);
+  EXPECT_EQ(inside.complementarity_gap, 6.0);  // u = 3, two above the lower bound
+}
+
+// Slides, spins and rolls at once, with impulses on the bounds of all three against the velocities: exact friction has
+// u_n = 0, the associated problem u_n = mu |u_t| + mu_s |u_s| + mu_r |u_rho|.
+TEST(ccp_figures, both_laws_of_a_cone_of_six_rows) {
+  const double m = 0.7, n = 2.0;
+  const CcpBlock block{.kind = CcpKind::cone, .friction = 0.5, .spinning = 0.2, .rolling = 0.1};
+  const std::vector<double> gamma{n, -0.3 * n, 0.4 * n, 0.2 * n, -0.06 * n, -0.08 * n};
+  const std::vector<double> moving{0.0, 3.0, -4.0, -2.0, 0.6, 0.8};
+  const double lift = 0.5 * 5.0 + 0.2 * 2.0 + 0.1 * 1.0;
+  std::vector<double> exact = moving, associated = moving;
+  associated[0] = lift;
+  for (std::size_t k = 0; k < 6; ++k) exact[k] -= gamma[k] / m, associated[k] -= gamma[k] / m;
+  const CcpFigures a = figures_of(one_block(m, block, associated), gamma);
+  EXPECT_NEAR(a.residual, 0.0, 1e-14);
+  EXPECT_NEAR(a.relative_residual, 0.0, 1e-15);
+  EXPECT_NEAR(a.velocity_violation, 0.0, 1e-14);
+  EXPECT_NEAR(a.complementarity_gap, 0.0, 1e-14);
+  EXPECT_LE(a.impulse_violation, 1e-15);
+  EXPECT_GT(a.coulomb_residual, 0.1);
+  EXPECT_GT(a.coulomb_error, 0.01);
+  const CcpFigures c = figures_of(one_block(m, block, exact), gamma);
+  EXPECT_NEAR(c.coulomb_residual, 0.0, 1e-14);
+  EXPECT_NEAR(c.coulomb_error, 0.0, 1e-15);
+  EXPECT_NEAR(c.velocity_violation, lift, 1e-14);
+  EXPECT_GT(c.residual, 0.1);
+}
+
+// Solutions that were there before r: every figure is the rounding of sums of numbers of size one, and with N written out
+// all figures are the same but for the order of sums.
+TEST(ccp_figures, vanish_at_planted_solutions_of_every_kind) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const PlantedProblem planted = planted_problem(
+        {.bodies = 10, .contacts = 10, .blocks = 20, .compliant = seed % 2 == 0, .repeats = 0.2, .seed = seed});
+    const TestingProblem explicit_n = test::with_matrix(planted.problem);
+    for (const TestingProblem* const t : {&planted.problem, &explicit_n}) {
+      const CcpFigures figures = figures_of(*t, planted.gamma);
+      EXPECT_LT(figures.residual, 1e-12) << "seed " << seed;
+      EXPECT_LT(figures.relative_residual, 1e-13);
+      EXPECT_LT(figures.impulse_violation, 1e-14);
+      EXPECT_LT(figures.velocity_violation, 1e-12);
+      EXPECT_LT(figures.complementarity_gap, 1e-10);
+    }
+    std::vector<double> elsewhere = planted.gamma;
+    for (std::size_t k = 0; k < elsewhere.size(); k += 5) elsewhere[k] += 0.1;
+    const CcpFigures a = figures_of(planted.problem, elsewhere), b = figures_of(explicit_n, elsewhere);
+    EXPECT_GT(a.residual, 1e-4);
+    EXPECT_NEAR(a.residual, b.residual, 1e-12 * a.residual);
+    EXPECT_NEAR(a.objective, b.objective, 1e-11 * std::abs(a.objective));
+    EXPECT_NEAR(a.coulomb_error, b.coulomb_error, 1e-12 * a.coulomb_error);
+    EXPECT_NEAR(a.complementarity_gap, b.complementarity_gap, 1e-11 * a.complementarity_gap);
+  }
+}
+
+TEST(ccp_figures, of_blocks_have_the_bits_of_one_thread_for_two) {
+  const PlantedProblem planted = planted_problem({.bodies = 2000, .contacts = 3000, .blocks = 5000});
+  const Executor two{2};
+  const std::vector<double> gamma(planted.gamma.size(), 0.1);
+  EXPECT_EQ(ccp_residual(planted.problem.view(), gamma), ccp_residual(planted.problem.view(), gamma, &two));
+}
+
+// What no impulse changes has no residual, and what is no number has an infinite one.
+TEST(ccp_residual, of_immovable_bodies_and_of_numbers_that_are_not_finite) {
+  TestingProblem t = one_block(1.0, {.kind = CcpKind::cone, .friction = 0.5}, {-1.0, 0.0, 0.0});
+  EXPECT_GT(ccp_residual(t.view(), std::vector<double>(3, 0.0)), 0.5);
+  t.blocks[0].b = t.blocks[0].a;
+  EXPECT_EQ(ccp_residual(t.view(), std::vector<double>(3, 0.0)), 0.0);
+  for (const CcpKind kind : {CcpKind::free, CcpKind::nonnegative, CcpKind::box, CcpKind::cone}) {
+    const TestingProblem wrong = one_block(1.0, {.kind = kind}, {1.0, std::nan(""), 0.0});
+    EXPECT_EQ(ccp_residual(wrong.view(), std::vector<double>(3, 0.0)), kInfinity);
+    const TestingProblem right = one_block(1.0, {.kind = kind}, {1.0, 0.0, 0.0});
+    EXPECT_EQ(ccp_residual(right.view(), std::vector<double>{std::nan(""), 0.0, 0.0}), kInfinity);
+  }
 }
 
 }  // namespace
