@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scree/base/error.hpp"
+#include "scree/base/require.hpp"
 #include "scree/state/hdf5_checkpoint.hpp"
 
 namespace scree {
@@ -83,6 +84,120 @@ void check_contact(const CcpRecord& record, std::size_t i, const Judgement& judg
                     contact + " has a normal and a tangent that are not perpendicular unit vectors");
 }
 
+/// Numbers of all blocks.
+std::size_t rows_of(std::span<const CcpBlock> blocks) {
+  std::size_t rows = 0;
+  for (const CcpBlock& block : blocks) rows += block.rows;
+  return rows;
+}
+
+bool has_a_cone(int rows) { return rows == 1 || rows == 2 || rows == 3 || rows == 5 || rows == 6; }
+
+void check_blocks(const CcpRecord& record, const Judgement& judgement) {
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < record.blocks.size(); ++i) {
+    const CcpBlock& k = record.blocks[i];
+    const std::string block = "block " + std::to_string(i);
+    judgement.require(k.kind <= CcpKind::cone, block + " is of an unknown kind");
+    judgement.require(k.rows >= 1 && k.rows <= CcpBlock::kMostRows && (k.kind != CcpKind::cone || has_a_cone(k.rows)),
+                      block + " has " + std::to_string(k.rows) + " rows, which its kind does not have");
+    judgement.require(k.first_row == row, block + " does not begin where the one before it ends");
+    row += k.rows;
+    judgement.require(record.block_rows.empty() || std::max(k.a, k.b) < record.inverse_mass.size(),
+                      block + " names a body that is not there");
+    judgement.require(k.friction >= 0.0 && k.spinning >= 0.0 && k.rolling >= 0.0 && std::isfinite(k.friction) &&
+                          std::isfinite(k.spinning) && std::isfinite(k.rolling),
+                      block + " has a coefficient of friction that is negative or not finite");
+    judgement.require(k.kind != CcpKind::box || k.lower <= k.upper, block + " has no number between its bounds");
+  }
+  for (std::size_t k = 0; k < record.block_rows.size(); ++k) {
+    const CcpRow& j = record.block_rows[k];
+    judgement.require(
+        is_finite(j.a.linear) && is_finite(j.a.angular) && is_finite(j.b.linear) && is_finite(j.b.angular),
+        "row " + std::to_string(k) + " of the blocks has a number that is not finite");
+  }
+}
+
+/// One member of every block, or of every row of them.
+template <class Value, class Item, class Get>
+std::vector<Value> gather(const std::vector<Item>& items, const Get& get) {
+  std::vector<Value> values;
+  values.reserve(items.size());
+  for (const Item& item : items) values.push_back(static_cast<Value>(get(item)));
+  return values;
+}
+
+void write_blocks(StateWriter& out, const CcpRecord& record) {
+  if (record.blocks.empty()) return;
+  const auto integers = [&](const char* name, const auto& get) {
+    out.write(name, gather<std::uint64_t>(record.blocks, get));
+  };
+  const auto doubles = [&](const char* name, double CcpBlock::*member) {
+    out.write(name, gather<double>(record.blocks, [member](const CcpBlock& b) { return b.*member; }));
+  };
+  integers("block_kind", [](const CcpBlock& b) { return b.kind; });
+  integers("block_size", [](const CcpBlock& b) { return b.rows; });
+  integers("block_a", [](const CcpBlock& b) { return b.a; });
+  integers("block_b", [](const CcpBlock& b) { return b.b; });
+  doubles("block_friction", &CcpBlock::friction);
+  doubles("block_spinning", &CcpBlock::spinning);
+  doubles("block_rolling", &CcpBlock::rolling);
+  doubles("block_lower", &CcpBlock::lower);
+  doubles("block_upper", &CcpBlock::upper);
+  const auto twists = [&](const char* name, Twist CcpRow::*member) {
+    std::vector<double> flat;
+    for (const CcpRow& row : record.block_rows) {
+      const Twist& t = row.*member;
+      flat.insert(flat.end(), {t.linear.x, t.linear.y, t.linear.z, t.angular.x, t.angular.y, t.angular.z});
+    }
+    out.write(name, flat);
+  };
+  twists("block_row_a", &CcpRow::a);
+  twists("block_row_b", &CcpRow::b);
+}
+
+void read_blocks(const StateReader& in, CcpRecord& record, const Judgement& judgement) {
+  if (!in.has("block_kind")) return;
+  const std::vector<std::uint64_t> kinds = in.integers("block_kind");
+  record.blocks.resize(kinds.size());
+  const auto integers = [&](const char* name, std::uint64_t greatest, const auto& set) {
+    const std::vector<std::uint64_t> values = in.integers(name);
+    judgement.size(name, values.size(), kinds.size(), "one a block");
+    for (std::size_t i = 0; i < values.size(); ++i) set(record.blocks[i], std::min(values[i], greatest));
+  };
+  const auto doubles = [&](const char* name, double CcpBlock::*member) {
+    const std::vector<double> values = in.doubles(name);
+    judgement.size(name, values.size(), kinds.size(), "one a block");
+    for (std::size_t i = 0; i < values.size(); ++i) record.blocks[i].*member = values[i];
+  };
+  constexpr std::uint64_t kGreatest = std::numeric_limits<std::uint32_t>::max(), kByte = 255;
+  integers("block_kind", kByte, [](CcpBlock& b, std::uint64_t value) { b.kind = static_cast<CcpKind>(value); });
+  integers("block_size", kByte, [](CcpBlock& b, std::uint64_t value) { b.rows = static_cast<std::uint8_t>(value); });
+  integers("block_a", kGreatest, [](CcpBlock& b, std::uint64_t value) { b.a = static_cast<std::uint32_t>(value); });
+  integers("block_b", kGreatest, [](CcpBlock& b, std::uint64_t value) { b.b = static_cast<std::uint32_t>(value); });
+  doubles("block_friction", &CcpBlock::friction);
+  doubles("block_spinning", &CcpBlock::spinning);
+  doubles("block_rolling", &CcpBlock::rolling);
+  doubles("block_lower", &CcpBlock::lower);
+  doubles("block_upper", &CcpBlock::upper);
+  std::uint32_t row = 0;
+  for (CcpBlock& block : record.blocks) {
+    block.first_row = row;
+    row += block.rows;
+  }
+  record.block_rows.resize(row);
+  const auto twists = [&](const char* name, Twist CcpRow::*member) {
+    const std::vector<double> flat = in.doubles(name);
+    judgement.size(name, flat.size(), 6 * record.block_rows.size(), "six a row of a block");
+    for (std::size_t k = 0; k < record.block_rows.size(); ++k) {
+      const double* t = flat.data() + 6 * k;
+      record.block_rows[k].*member = {{t[0], t[1], t[2]}, {t[3], t[4], t[5]}};
+    }
+  };
+  twists("block_row_a", &CcpRow::a);
+  twists("block_row_b", &CcpRow::b);
+}
+
 /// One member of every contact.
 std::vector<Vec3> column(const CcpRecord& record, Vec3 CcpContact::*member) {
   std::vector<Vec3> values;
@@ -146,18 +261,23 @@ CcpRecord make_ccp_record(const CcpProblem& problem, std::span<const double> gue
           {problem.r.begin(), problem.r.end()},
           {problem.compliance.begin(), problem.compliance.end()},
           {guess.begin(), guess.end()},
-          std::move(origin)};
+          std::move(origin),
+          {problem.blocks.begin(), problem.blocks.end()},
+          {problem.block_rows.begin(), problem.block_rows.end()},
+          {}};
 }
 
 void check_ccp_record(const CcpRecord& record, const std::string& place) {
   const Judgement judgement{place};
-  const std::size_t rows = 3 * record.contacts.size();
+  const std::size_t rows = 3 * record.contacts.size() + rows_of(record.blocks);
+  const std::string each = record.blocks.empty() ? "three a contact" : "one a row";
   check_bodies(record, judgement);
-  judgement.size("r", record.r.size(), rows, "three a contact");
-  judgement.size("guess", record.guess.size(), rows, "three a contact");
+  judgement.size("r", record.r.size(), rows, each);
+  judgement.size("guess", record.guess.size(), rows, each);
   if (!record.compliance.empty()) {
-    judgement.size("compliance", record.compliance.size(), rows, "three a contact or none at all");
+    judgement.size("compliance", record.compliance.size(), rows, each + " or none at all");
   }
+  check_blocks(record, judgement);
   for (std::size_t i = 0; i < record.contacts.size(); ++i) check_contact(record, i, judgement);
   judgement.finite("r", record.r);
   judgement.finite("guess", record.guess);
@@ -169,6 +289,7 @@ void check_ccp_record(const CcpRecord& record, const std::string& place) {
 }
 
 void write_ccp_file(const std::filesystem::path& file, const CcpRecord& record) {
+  SCREE_REQUIRE(record.matrix.first.empty(), "write_ccp_file: a problem with a matrix is kept as an FCLIB file");
   CheckpointWriter writer{{record.origin.scene_hash, record.origin.scree_version}, kContent};
   StateWriter& out = writer.root();
   std::vector<double> friction;
@@ -190,6 +311,7 @@ void write_ccp_file(const std::filesystem::path& file, const CcpRecord& record) 
   out.write("step", record.origin.step);
   out.write("tolerance", record.origin.tolerance);
   out.write("max_iterations", static_cast<std::uint64_t>(record.origin.max_iterations));
+  write_blocks(out, record);
   writer.save_as(file);
 }
 
@@ -205,6 +327,7 @@ CcpRecord read_ccp_file(const std::filesystem::path& file) {
   record.r = in.doubles("r");
   record.compliance = in.doubles("compliance");
   record.guess = in.doubles("guess");
+  read_blocks(in, record, judgement);
   constexpr std::uint64_t kGreatest = std::numeric_limits<int>::max();
   record.origin = {reader.header().scene_hash, reader.header().scree_version,
                    in.number("time"),          in.integer("step"),

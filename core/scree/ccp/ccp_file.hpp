@@ -8,6 +8,12 @@
 //     r 3 m                    [m/s]          compliance 3 m, or none               [1/kg]
 //     guess 3 m                [N s]          time, step, tolerance, max_iterations
 //
+// and, where it has blocks of other kinds than contacts (k of them, q rows; r, compliance and guess then have q more):
+//
+//     block_kind k             0 free, 1 nonnegative, 2 box, 3 cone       block_size k, rows of each
+//     block_a, block_b k       indices        block_friction, block_spinning, block_rolling k     [1]
+//     block_lower, block_upper k [N s]        block_row_a, block_row_b 6 q, linear then angular   [1, m]
+//
 // A reader of another format fills in a CcpRecord and lets check_ccp_record() judge it.
 #pragma once
 
@@ -17,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "scree/ccp/matrix.hpp"
 #include "scree/ccp/problem.hpp"
 
 namespace scree {
@@ -35,25 +42,30 @@ struct CcpOrigin {
 struct CcpRecord {
   std::vector<double> inverse_mass;   ///< per body [1/kg]
   std::vector<Mat3> inverse_inertia;  ///< per body, world frame [1/(kg m2)]
-  std::vector<CcpContact> contacts;   ///< m blocks
-  std::vector<double> r;              ///< 3 m [m/s]
-  std::vector<double> compliance;     ///< 3 m [1/kg]; empty for none
-  std::vector<double> guess;          ///< 3 m [N s], what the solver started from
+  std::vector<CcpContact> contacts;   ///< m of them
+  std::vector<double> r;              ///< one a row [m/s]
+  std::vector<double> compliance;     ///< one a row [1/kg]; empty for none
+  std::vector<double> guess;          ///< one a row [N s], what the solver started from
   CcpOrigin origin;
+  std::vector<CcpBlock> blocks = {};    ///< behind the contacts
+  std::vector<CcpRow> block_rows = {};  ///< Jacobian of the blocks; empty with a matrix
+  CcpMatrixStore matrix = {};           ///< of a problem without bodies
 
   /// A view of it; valid while the record is neither moved nor changed.
-  [[nodiscard]] CcpProblem problem() const { return {inverse_mass, inverse_inertia, contacts, r, compliance}; }
+  [[nodiscard]] CcpProblem problem() const {
+    return {inverse_mass, inverse_inertia, contacts, r, compliance, blocks, block_rows, matrix.view()};
+  }
 };
 
-/// A copy of `problem` with its first guess `guess` (3 m) [N s].
+/// A copy of `problem`, which has bodies, with its first guess `guess` (one a row) [N s].
 [[nodiscard]] CcpRecord make_ccp_record(const CcpProblem& problem, std::span<const double> guess, CcpOrigin origin);
 
 /// Checks sizes, indices, that all numbers are finite, that masses, inertias, friction and compliance are not negative,
-/// and that normal and tangent are perpendicular unit vectors. @throws Error (io) that begins with `place`, "the contact
+/// that normal and tangent are perpendicular unit vectors, and the kinds, sizes and bounds of blocks. @throws Error (io) that begins with `place`, "the contact
 /// problem FILE", and names the first entry that does not fit.
 void check_ccp_record(const CcpRecord& record, const std::string& place);
 
-/// Writes `record` as a whole or not at all. @throws Error (io).
+/// Writes `record`, which has no matrix, as a whole or not at all. @throws Error (io).
 void write_ccp_file(const std::filesystem::path& file, const CcpRecord& record);
 
 /// Reads a record; the same bits as were written. @throws Error (io) for a file that is missing, damaged, cut short or

@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 class CcpFileTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -82,6 +84,69 @@ TEST_F(CcpFileTest, returns_every_bit_that_was_written) {
 TEST_F(CcpFileTest, takes_problems_without_contacts_and_without_compliance) {
   EXPECT_EQ(reading([](CcpRecord& record) { record.compliance.clear(); }), "");
   EXPECT_EQ(reading([](CcpRecord& record) { record = {}; }), "");
+}
+
+/// A motor with one bound and a contact that resists rolling, behind the contacts.
+void add_blocks(CcpRecord& record) {
+  record.blocks = {{.kind = CcpKind::box, .rows = 2, .first_row = 0, .a = 1, .b = 2, .lower = -kInfinity, .upper = 0.5},
+                   {.kind = CcpKind::cone,
+                    .rows = 6,
+                    .first_row = 2,
+                    .a = 0,
+                    .b = 3,
+                    .friction = 0.5,
+                    .spinning = 0.1,
+                    .rolling = 0.2}};
+  for (int k = 0; k < 8; ++k) {
+    const double x = k;
+    record.block_rows.push_back({{{x, 1, 2}, {3, 4, 5}}, {{-x, -1, -2}, {6, 7, 8}}});
+    record.r.push_back(0.25 * x);
+    record.guess.push_back(-0.5 * x);
+    record.compliance.push_back(0.125 * x);
+  }
+}
+
+TEST_F(CcpFileTest, returns_blocks_of_other_kinds) {
+  add_blocks(record_);
+  write_ccp_file(file_, record_);
+  const CcpRecord back = read_ccp_file(file_);
+  ASSERT_EQ(back.blocks.size(), 2u);
+  EXPECT_EQ(back.blocks[0].kind, CcpKind::box);
+  EXPECT_EQ(back.blocks[0].lower, -kInfinity);
+  EXPECT_EQ(back.blocks[0].upper, 0.5);
+  EXPECT_EQ(back.blocks[1].kind, CcpKind::cone);
+  EXPECT_EQ(back.blocks[1].rows, 6);
+  EXPECT_EQ(back.blocks[1].first_row, 2u);
+  EXPECT_EQ(back.blocks[1].a, 0u);
+  EXPECT_EQ(back.blocks[1].b, 3u);
+  EXPECT_EQ(back.blocks[1].friction, 0.5);
+  EXPECT_EQ(back.blocks[1].spinning, 0.1);
+  EXPECT_EQ(back.blocks[1].rolling, 0.2);
+  ASSERT_EQ(back.block_rows.size(), 8u);
+  EXPECT_TRUE(back.block_rows[7].b.linear == (Vec3{-7, -1, -2}) && back.block_rows[7].a.angular == (Vec3{3, 4, 5}));
+  EXPECT_EQ(back.r, record_.r);
+  EXPECT_EQ(back.problem().rows(), record_.r.size());
+}
+
+TEST_F(CcpFileTest, refuses_blocks_that_do_not_fit) {
+  const auto expect_block_refused = [&](const std::string& words, const std::function<void(CcpBlock&)>& spoil) {
+    expect_refused(words, [&](CcpRecord& record) {
+      add_blocks(record);
+      spoil(record.blocks[1]);
+    });
+  };
+  expect_block_refused("block 1 is of an unknown kind", [](CcpBlock& b) { b.kind = static_cast<CcpKind>(4); });
+  expect_block_refused("block 1 names a body that is not there", [](CcpBlock& b) { b.b = 7; });
+  expect_block_refused("block 1 has a coefficient of friction", [](CcpBlock& b) { b.rolling = -0.1; });
+  expect_block_refused("\"block_row_a\" has 48 entries instead of 42", [](CcpBlock& b) { b.rows = 5; });
+  expect_refused("\"r\" has 34 entries instead of 35, one a row", [](CcpRecord& record) {
+    add_blocks(record);
+    record.r.pop_back();
+  });
+  expect_refused("block 0 has no number between its bounds", [](CcpRecord& record) {
+    add_blocks(record);
+    record.blocks[0].lower = 1.0;
+  });
 }
 
 TEST_F(CcpFileTest, refuses_wrong_sizes) {

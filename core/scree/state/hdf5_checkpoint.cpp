@@ -7,6 +7,7 @@
 
 #include "scree/base/error.hpp"
 #include "scree/results/output_file.hpp"
+#include "scree/state/detail/hdf5_handle.hpp"
 
 namespace scree {
 
@@ -15,28 +16,6 @@ namespace {
 constexpr std::uint64_t kFormatVersion = 1;
 constexpr hsize_t kChunk = 1 << 16;                // numbers in one check-summed piece of a dataset
 constexpr std::size_t kMemoryIncrement = 1 << 20;  // [byte] by which the image of a file grows
-
-/// Owns one HDF5 identifier.
-class Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close) : id_{id}, close_{close} {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(Handle&& other) noexcept : id_{std::exchange(other.id_, -1)}, close_{other.close_} {}
-  Handle& operator=(Handle&&) = delete;
-
-  [[nodiscard]] hid_t get() const { return id_; }
-  [[nodiscard]] bool valid() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  Close close_;
-};
-
-// HDF5 prints its own stack of errors by default; scree says it in one sentence instead.
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 void check(bool good, const std::string& sentence) {
   if (!good) throw Error{ErrorKind::io, sentence};
