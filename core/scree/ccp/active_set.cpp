@@ -5,7 +5,7 @@
 
 #include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
-#include "scree/ccp/cone3.hpp"
+#include "scree/ccp/guess.hpp"
 #include "scree/ccp/judge.hpp"
 
 namespace scree {
@@ -31,13 +31,6 @@ int round_length(int left, bool settled) {
   const int share = std::max(kShortestRound, static_cast<int>((settled ? kSettledShare : kRoundShare) * left));
   // What would be left for the last round is not worth a beginning of its own.
   return left - share < kShortestRound ? left : share;
-}
-
-void project_guess(const CcpProblem& problem, std::span<double> gamma) {
-  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
-    const Vec3 g = load_block(gamma, i);
-    store_block(gamma, i, is_finite(g) ? project_cone3(g, problem.contacts[i].friction) : Vec3{});
-  }
 }
 
 }  // namespace
@@ -95,9 +88,21 @@ SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext&
       if (compliant) compliance_.push_back(problem.compliance[row]);
     }
   }
-  const CcpProblem part{problem.inverse_mass, problem.inverse_inertia, contacts_, r_, compliance_};
+  // All blocks, as they are.
+  const auto append = [&](std::vector<double>& part, std::span<const double> whole) {
+    part.insert(part.end(), whole.begin() + static_cast<std::ptrdiff_t>(problem.contact_rows()), whole.end());
+  };
+  append(r_, problem.r);
+  append(gamma_, gamma);
+  if (compliant) append(compliance_, problem.compliance);
+  CcpProblem part = problem;
+  part.contacts = contacts_;
+  part.r = r_;
+  part.compliance = compliance_;
   const SolveSummary summary = solver.solve(part, context, gamma_);
   for (std::size_t k = 0; k < index_.size(); ++k) store_block(gamma, index_[k], load_block(gamma_, k));
+  std::copy(gamma_.begin() + static_cast<std::ptrdiff_t>(part.contact_rows()), gamma_.end(),
+            gamma.begin() + static_cast<std::ptrdiff_t>(problem.contact_rows()));
   return summary;
 }
 
@@ -111,7 +116,8 @@ SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext&
     };
   }
   bool settled = false;
-  while (active > 0) {
+  const bool blocks = !delassus_.problem().blocks.empty();
+  while (active > 0 || blocks) {
     round.max_iterations = round_length(context.max_iterations - total.iterations, settled);
     total.status = SolveStatus::iteration_limit;
     if (round.max_iterations < 1) break;
@@ -130,8 +136,9 @@ SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext&
 
 SolveSummary ActiveSetSolve::solve(CcpSolver& solver, const CcpProblem& problem, const SolveContext& context,
                                    std::span<double> gamma) {
-  SCREE_REQUIRE(gamma.size() == problem.rows(), "ActiveSetSolve: gamma needs three numbers a contact");
-  if (problem.contacts.size() == 0) return {};
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "ActiveSetSolve: gamma needs a number a row");
+  if (problem.empty()) return {};
+  if (problem.contacts.empty()) return solver.solve(problem, context, gamma);
   project_guess(problem, gamma);
   const std::size_t active = mark_guess(problem, context, gamma);
   if (static_cast<double>(active) > kWorthwhile * static_cast<double>(problem.contacts.size())) {

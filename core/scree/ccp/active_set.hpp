@@ -3,7 +3,8 @@
 // A step's problem holds every contact that may close within the step, and in a fast stream most of them never do. The
 // contacts that the guess leaves open are put aside; the others are solved; those aside that the answer would close are added,
 // and the solve goes on from there. When none is left, the answer solves the whole problem: a contact that opens by itself
-// carries no impulse. The judge sees the whole problem in any case.
+// carries no impulse. Blocks of other kinds always count, and a problem without contacts goes to the solver as it is. The
+// judge sees the whole problem in any case.
 #pragma once
 
 #include <cstdint>

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "scree/ccp/block_cone.hpp"
 #include "scree/ccp/cone3.hpp"
 #include "scree/ccp/judge.hpp"
 #include "support/allocation_count.hpp"
+#include "support/ccp_planted_problems.hpp"
 #include "support/ccp_problems.hpp"
 
 namespace scree {
@@ -28,6 +30,7 @@ class SlowSolver final : public CcpSolver {
     SolveSummary out{SolveStatus::iteration_limit, 0, ccp_residual(delassus_, gamma, w_, partial_)};
     while (out.residual > context.tolerance && out.iterations < context.max_iterations) {
       for (std::size_t i = 0; i < p.contacts.size(); ++i) update(p, i, gamma);
+      for (std::size_t i = 0; i < p.blocks.size(); ++i) update_block(p, i, gamma);
       updates += p.contacts.size();
       delassus_.body_velocities(gamma, w_);
       out.residual = ccp_residual(delassus_, gamma, w_, partial_);
@@ -55,6 +58,23 @@ class SlowSolver final : public CcpSolver {
     add_impulse(c, next - g, a, b);
     w_[c.a] += apply_inverse_mass(p, c.a, a);
     w_[c.b] += apply_inverse_mass(p, c.b, b);
+  }
+
+  void update_block(const CcpProblem& p, std::size_t i, std::span<double> gamma) {
+    const CcpBlock& block = p.blocks[i];
+    const std::span<double> g = rows_of(p, block, gamma);
+    BlockVector u, change;
+    delassus_.block_velocity(i, w_, gamma, u);
+    for (std::size_t k = 0; k < block.rows; ++k) {
+      change[k] = -g[k];
+      g[k] -= (u[k] + p.r[first_row(p, block) + k]) / diagonal_trace_of_block(p, i);
+    }
+    project_block(block, g);
+    for (std::size_t k = 0; k < block.rows; ++k) change[k] += g[k];
+    Twist a, b;
+    add_impulse(jacobian_of(p, block), change, a, b);
+    w_[block.a] += apply_inverse_mass(p, block.a, a);
+    w_[block.b] += apply_inverse_mass(p, block.b, b);
   }
 
   DelassusOperator delassus_;
@@ -122,6 +142,36 @@ TEST(active_set, velocities_equal_those_of_the_full_solve_from_any_guess) {
       expect_same_velocities(p, *gamma, full);
     }
   }
+}
+
+// Blocks are never put aside, whether a contact is active or none. The judge sees the whole problem.
+TEST(active_set, blocks_of_every_kind_take_part) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    test::PlantedProblem planted =
+        test::planted_problem({.bodies = 40, .contacts = 30, .blocks = 8, .compliant = seed % 3 == 0, .seed = seed});
+    TestingProblem& t = planted.problem;
+    // Contacts that are open in the solution open faster; in the last problems all are.
+    for (std::size_t i = 0; i < t.contacts.size(); ++i) {
+      if (seed > 10 || planted.gamma[3 * i] == 0.0) t.r[3 * i] += 20.0;
+    }
+    const CcpProblem p = t.view();
+    SlowSolver solver;
+    ActiveSetSolve active_set;
+    std::vector<double> gamma(p.rows(), 0.0);
+    const SolveSummary s = active_set.solve(solver, p, tight(1e-5), gamma);
+    EXPECT_EQ(s.status, SolveStatus::converged) << "seed " << seed;
+    EXPECT_LT(solver.blocks, p.contacts.size()) << "nothing was put aside";
+    EXPECT_EQ(s.residual, ccp_residual(p, gamma));
+  }
+}
+
+TEST(active_set, problem_without_contacts_goes_to_the_solver) {
+  const test::PlantedProblem planted = test::planted_problem({.contacts = 0, .blocks = 8});
+  SlowSolver solver;
+  ActiveSetSolve active_set;
+  std::vector<double> gamma(planted.gamma.size(), 0.0);
+  EXPECT_EQ(active_set.solve(solver, planted.problem.view(), tight(1e-9), gamma).status, SolveStatus::converged);
+  EXPECT_EQ(solver.calls, 1u);
 }
 
 // Equal masses on a line, without friction: the first hits the second, which then closes its gap to the third, opening with

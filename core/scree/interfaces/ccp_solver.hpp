@@ -28,7 +28,7 @@ struct IterationReport {
 /// depend on the machine.
 struct SolveContext {
   double tolerance = 1e-3;   ///< stop at this ccp_residual [m/s]
-  int max_iterations = 100;  ///< stop after so many passes over all contacts
+  int max_iterations = 100;  ///< stop after so many passes over all contacts and blocks
   const Executor* executor = nullptr;
   std::function<void(const IterationReport&)> on_iteration;  ///< may be empty
 };
@@ -47,9 +47,11 @@ class CcpSolver : public Plugin {
   static constexpr const char* kKind = "ccp_solver";
   ~CcpSolver() override;
 
-  /// Solves `problem`. `gamma` (3 m) [N s] holds the first guess, any finite
-  /// numbers, and receives the answer, which lies in K to rounding and is never
-  /// worse in the objective than the projected guess.
+  /// Solves `problem`. `gamma` (problem.rows() numbers) [N s] holds the first
+  /// guess, any finite numbers, and receives the answer, which lies in K to
+  /// rounding and is never worse in the objective than the projected guess.
+  /// Contacts, blocks of every kind and an explicit matrix: @throws
+  /// std::logic_error for what the method cannot take, and its README says so.
   virtual SolveSummary solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) = 0;
 };
 
