@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct SolverCase {
   std::string name;
   std::function<std::unique_ptr<CcpSolver>()> make;
 };
+
+inline void PrintTo(const SolverCase& solver, std::ostream* out) { *out << solver.name; }
 
 inline std::string solver_case_name(const testing::TestParamInfo<SolverCase>& info) { return info.param.name; }
 

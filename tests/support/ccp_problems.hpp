@@ -1,6 +1,7 @@
 // Cone complementarity problems for tests: random feasible ones and closed forms.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -65,6 +66,19 @@ inline TestingProblem sphere_on_floor(double mass, double radius, double frictio
   const double j = 0.4 * mass * radius * radius;
   const std::uint32_t sphere = t.add_body(mass, {j, j, j});
   t.add_contact(floor, sphere, {0, 0, 1}, {}, {0, 0, -radius}, friction, velocity);
+  return t;
+}
+
+/// One body of mass `m` that a block moves along x, y, z and turns about x, y, z with arms of 1 m: N = 1/m. r = `u`.
+inline TestingProblem one_block(double m, const CcpBlock& block, const std::vector<double>& u) {
+  constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  TestingProblem t;
+  const std::uint32_t world = t.add_immovable(), body = t.add_body(m, {m, m, m});
+  CcpBlock b = block;
+  b.a = world, b.b = body;
+  std::vector<CcpRow> rows(u.size());
+  for (std::size_t k = 0; k < u.size(); ++k) (k < 3 ? rows[k].b.linear : rows[k].b.angular) = kAxes[k % 3];
+  t.add_block(b, rows, u);
   return t;
 }
 

@@ -10,6 +10,7 @@
 namespace scree {
 namespace {
 
+using test::one_block;
 using test::planted_problem;
 using test::PlantedProblem;
 using test::random_problem;
@@ -86,19 +87,6 @@ TEST(ccp_figures, of_a_problem_without_r_are_not_divided_by_it) {
 }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// One body of mass `m` that a block moves along x, y, z and turns about x, y, z with arms of 1 m: N = 1/m. r = `u`.
-TestingProblem one_block(double m, const CcpBlock& block, const std::vector<double>& u) {
-  constexpr std::array<Vec3, 3> kAxes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  TestingProblem t;
-  const std::uint32_t world = t.add_immovable(), body = t.add_body(m, {m, m, m});
-  CcpBlock b = block;
-  b.a = world, b.b = body;
-  std::vector<CcpRow> rows(u.size());
-  for (std::size_t k = 0; k < u.size(); ++k) (k < 3 ? rows[k].b.linear : rows[k].b.angular) = kAxes[k % 3];
-  t.add_block(b, rows, u);
-  return t;
-}
 
 // N = 1/m and s = m: the natural map of a row is an interval's, a velocity whatever the mass.
 TEST(ccp_figures, rows_without_bounds_and_with_one_or_two) {
