@@ -1,7 +1,7 @@
 // CcpMatrixStore: an explicit matrix N that owns its numbers, made from single entries.
 //
 // Files of other programs bring matrices that are symmetric only in theory: a capsule that tumbles leaves gyroscopic terms
-// of a thousandth in N. Solvers get (N + N^T)/2; what remains is left to an outer iteration (scree/ccp/outer_iteration.hpp).
+// of a thousandth in N. Solvers get (N + N^T)/2; what remains is left to an outer iteration (coulomb.hpp).
 #pragma once
 
 #include <cstddef>

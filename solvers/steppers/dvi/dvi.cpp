@@ -18,8 +18,8 @@ constexpr std::size_t kGrain = 2048;
 Dvi::Dvi(const Options& options)
     : Dvi{DviOptions{.limits = {options.number("recovery_speed"), options.number("min_bounce_speed")},
                      .coulomb = options.text("friction") == "coulomb",
-                     .coulomb_limits = {options.number("friction_tolerance"),
-                                        static_cast<int>(options.integer("friction_solves"))},
+                     .coulomb_limits = {.tolerance = options.number("friction_tolerance"),
+                                        .max_solves = static_cast<int>(options.integer("friction_solves"))},
                      .gyroscopic = options.boolean("gyroscopic"),
                      .warm_start = options.boolean("warm_start")}} {}
 
@@ -118,15 +118,19 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
   SolveSummary solved;
   if (problem.contacts.size() > 0) {
     if (options_.coulomb) {
-      delassus_.bind(problem, &services.executor());
-      const dvi::CoulombSummary outer = coulomb_.solve(services, problem, delassus_, options_.coulomb_limits, gamma_);
+      CoulombLimits limits = options_.coulomb_limits;
+      limits.solver_has_its_own_goal = true;
+      const InnerSolve by_scene = [&services](const CcpProblem& posed, const InnerGoal&, std::span<double> gamma) {
+        return services.solve_ccp(posed, gamma);
+      };
+      const CoulombSummary outer = coulomb_.solve(problem, services.executor(), by_scene, limits, gamma_);
       solved = outer.solve;
       summary.friction_solves = outer.solves;
       summary.friction_error = outer.error;
     } else {
       solved = services.solve_ccp(problem, gamma_);
-      delassus_.bind(problem, &services.executor());
     }
+    delassus_.bind(problem, &services.executor());
     w_.resize(problem.bodies());
     delassus_.body_velocities(gamma_, w_);
   }

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "contact_assembly.hpp"
-#include "coulomb.hpp"
 #include "scree/ccp/contact_memory.hpp"
+#include "scree/ccp/coulomb.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/time_stepper.hpp"
 
@@ -22,7 +22,7 @@ namespace scree {
 struct DviOptions {
   dvi::ContactLimits limits = {};
   bool coulomb = false;  ///< exact Coulomb friction in place of the associated problem
-  dvi::CoulombLimits coulomb_limits = {};
+  CoulombLimits coulomb_limits = {};
   bool gyroscopic = false;  ///< gyroscopic torque of bodies with three moments
   bool warm_start = true;   ///< start from the impulses of the last step
 };
@@ -53,7 +53,7 @@ class Dvi final : public TimeStepper {
 
   DviOptions options_;
   dvi::ContactAssembly assembly_;
-  dvi::CoulombFixedPoint coulomb_;
+  CoulombIteration coulomb_;
   DelassusOperator delassus_;
 
   std::vector<Vec3> force_, torque_;
