@@ -6,6 +6,7 @@
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
 #include "scree/ccp/judge.hpp"
+#include "scree/ccp/sweep/stall_watch.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 
 namespace scree {
@@ -56,13 +57,16 @@ bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::
   delassus_.bind(problem, context.executor);
   w_.resize(problem.bodies());
   delassus_.body_velocities(gamma, w_);
-  sweep_.bind(problem, {.coloured = options_.coloured});
-  sweep_.set_impulses(gamma);
-  sweep_.set_velocities(w_);
-  history_.assign(sweep_.groups().size(), History{});
-  for (std::size_t k = 0; k < history_.size(); ++k) history_[k].x_old = sweep_.groups()[k].g;
-  old_.assign(sweep_.bodies().begin(), sweep_.bodies().end());
-  sums_.assign(sweep_.chunks(), Sums{});
+  contacts_.bind(problem, {.coloured = options_.coloured});
+  contacts_.set_impulses(gamma);
+  contacts_.set_velocities(w_);
+  blocks_.bind(problem, contacts_, {});
+  blocks_.set_impulses(gamma);
+  block_momentum_.start(blocks_);
+  history_.assign(contacts_.groups().size(), History{});
+  for (std::size_t k = 0; k < history_.size(); ++k) history_[k].x_old = contacts_.groups()[k].g;
+  old_.assign(contacts_.bodies().begin(), contacts_.bodies().end());
+  sums_.assign(contacts_.chunks(), AsgsSums{});
   x_.assign(gamma.begin(), gamma.end());
   x_best_ = x_;
   prepare_inertias(problem);
@@ -73,13 +77,14 @@ bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::
 }
 
 void Asgs::prepare_inertias(const CcpProblem& problem) {
-  inertia_.resize(sweep_.isotropic() ? 0 : problem.bodies());
+  inertia_.resize(contacts_.isotropic() ? 0 : problem.bodies());
   for (std::size_t k = 0; k < inertia_.size(); ++k) inertia_[k] = inertia_of(problem.inverse_inertia[k]);
 }
 
-// Bodies go from x to y; x becomes x_old.
-void Asgs::extrapolate_bodies(double beta) {
-  const std::span<sweep::Body> bodies = sweep_.bodies();
+// Bodies and blocks go from x to y; x becomes x_old. (Contacts do so one by one, in the forward sweep.)
+void Asgs::extrapolate(double beta) {
+  block_momentum_.extrapolate(blocks_, beta);
+  const std::span<sweep::Body> bodies = contacts_.bodies();
   delassus_.for_chunks(bodies.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       // Lanes 3 are constants of the body: their differences are zero.
@@ -93,9 +98,9 @@ void Asgs::extrapolate_bodies(double beta) {
 
 template <bool isotropic, bool compliant>
 void Asgs::forward(double beta, const Executor* executor) {
-  const std::span<sweep::Group> groups = sweep_.groups();
-  sweep::Body* const bodies = sweep_.bodies().data();
-  sweep_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
+  const std::span<sweep::Group> groups = contacts_.groups();
+  sweep::Body* const bodies = contacts_.bodies().data();
+  contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
     const Lanes momentum = Lanes{} + beta;
     for (std::size_t k = first; k < last; ++k) {
       sweep::Group& group = groups[k];
@@ -103,28 +108,28 @@ void Asgs::forward(double beta, const Executor* executor) {
       const Lanes3 x = group.g;
       group.g = history.y = x + momentum * (x - history.x_old);
       history.x_old = x;
-      sweep::update<isotropic, compliant>(group, sweep_.compliance(k), bodies, sweep_.inertias());
+      sweep::update<isotropic, compliant>(group, contacts_.compliance(k), bodies, contacts_.inertias());
     }
   });
 }
 
 template <bool isotropic, bool compliant>
 void Asgs::backward(const Executor* executor) {
-  const std::span<sweep::Group> groups = sweep_.groups();
-  sweep::Body* const bodies = sweep_.bodies().data();
-  sweep_.for_chunks(true, executor, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+  const std::span<sweep::Group> groups = contacts_.groups();
+  sweep::Body* const bodies = contacts_.bodies().data();
+  contacts_.for_chunks(true, executor, [&](std::size_t chunk, std::size_t first, std::size_t last) {
     Lanes against{}, linear{};
     const Lanes zero{};
     for (std::size_t k = last; k-- > first;) {
       sweep::Group& group = groups[k];
-      sweep::update<isotropic, compliant>(group, sweep_.compliance(k), bodies, sweep_.inertias());
+      sweep::update<isotropic, compliant>(group, contacts_.compliance(k), bodies, contacts_.inertias());
       const Lanes3 back = history_[k].y - group.g, step = group.g - history_[k].x_old;
       const Lanes along = back.x * step.x / group.step_n;
       const Lanes across = (back.y * step.y + back.z * step.z) / group.step_t;
       against += group.step_n > zero ? along + across : zero;  // lanes without a contact have no metric
       linear += dot(group.r, group.g);
       if constexpr (compliant) {
-        const Lanes3& e = *sweep_.compliance(k);
+        const Lanes3& e = *contacts_.compliance(k);
         linear += 0.5 * (e.x * group.g.x * group.g.x + e.y * group.g.y * group.g.y + e.z * group.g.z * group.g.z);
       }
     }
@@ -134,37 +139,41 @@ void Asgs::backward(const Executor* executor) {
 
 template <bool isotropic, bool compliant>
 void Asgs::sweeps(double beta, bool both, const Executor* executor) {
+  blocks_.sweep(false);
   forward<isotropic, compliant>(beta, executor);
-  if (both) backward<isotropic, compliant>(executor);
+  if (!both) return;
+  backward<isotropic, compliant>(executor);
+  blocks_.sweep(true);
 }
 
 // From x to the next iterate. The objective is known after both sweeps only.
 void Asgs::advance(double beta, bool both, const Executor* executor) {
-  const bool compliant = sweep_.compliant();
-  extrapolate_bodies(beta);
-  if (sweep_.isotropic()) {
+  const bool compliant = contacts_.compliant();
+  extrapolate(beta);
+  if (contacts_.isotropic()) {
     compliant ? sweeps<true, true>(beta, both, executor) : sweeps<true, false>(beta, both, executor);
   } else {
     compliant ? sweeps<false, true>(beta, both, executor) : sweeps<false, false>(beta, both, executor);
   }
   if (!both) return;
-  Sums total;
-  for (const Sums& s : sums_) total.against += s.against, total.linear += s.linear;
+  AsgsSums total = block_momentum_.sums(blocks_);
+  for (const AsgsSums& s : sums_) total.against += s.against, total.linear += s.linear;
   against_ = total.against;
   objective_ = kinetic_energy() + total.linear;
 }
 
 // Back to where the last pair came from.
 void Asgs::undo() {
-  const std::span<sweep::Group> groups = sweep_.groups();
+  const std::span<sweep::Group> groups = contacts_.groups();
   for (std::size_t k = 0; k < groups.size(); ++k) groups[k].g = history_[k].x_old;
-  std::copy(old_.begin(), old_.end(), sweep_.bodies().begin());
+  std::copy(old_.begin(), old_.end(), contacts_.bodies().begin());
+  block_momentum_.undo(blocks_);
   ++undone_;
 }
 
 // 1/2 w^T M w of the bodies' velocities.
 double Asgs::kinetic_energy() {
-  const std::span<const sweep::Body> bodies = sweep_.bodies();
+  const std::span<const sweep::Body> bodies = contacts_.bodies();
   const std::size_t n = bodies.size() - 1;
   partial_.assign(Executor::chunk_count(n, DelassusOperator::kGrain), 0.0);
   delassus_.for_chunks(n, [&](std::size_t first, std::size_t last) {
@@ -188,13 +197,17 @@ double Asgs::kinetic_energy() {
 
 // The velocities were summed up update by update: the residual is that of the impulses alone.
 double Asgs::residual(std::span<double> gamma) {
-  sweep_.impulses(gamma);
+  contacts_.impulses(gamma);
+  blocks_.impulses(gamma);
   delassus_.body_velocities(gamma, w_);
   return ccp_residual(delassus_, gamma, w_, partial_);
 }
 
+// Keeps x if it is the best so far. The sweeps go on with the velocities that its impulses have, without what rounding added.
 void Asgs::look(SolveSummary& summary) {
   const double now = residual(x_);
+  contacts_.set_velocities(w_);
+  blocks_.set_impulses(x_);
   if (now < summary.residual) {
     summary.residual = now;
     std::copy(x_.begin(), x_.end(), x_best_.begin());
@@ -202,8 +215,8 @@ void Asgs::look(SolveSummary& summary) {
 }
 
 SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
-  SCREE_REQUIRE(gamma.size() == problem.rows(), "asgs: gamma needs three numbers a contact");
-  if (problem.contacts.size() == 0) return {};
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "asgs: gamma needs one number a row");
+  if (problem.empty()) return {};
   if (!prepare(problem, context, gamma)) {
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }
@@ -211,6 +224,7 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
   // Any sweep beats the guess, whose residual may be small by accident far away.
   SolveSummary summary{SolveStatus::iteration_limit, 0, std::numeric_limits<double>::infinity()};
   if (guess_residual <= context.tolerance) summary.residual = guess_residual;
+  StallWatch watch;
   double theta = 1.0, beta = 0.0;
   int next_look = 2;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
@@ -236,6 +250,10 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
       // Watched: what the best iterate would be worth if it were looked at now.
       const double best = looking ? summary.residual : std::min(summary.residual, residual(x_));
       context.on_iteration({summary.iterations, best});
+    }
+    if (looking && watch.stalled(summary.iterations, summary.residual)) {
+      summary.status = SolveStatus::stalled;
+      break;
     }
     const double theta_next = 0.5 * theta * (std::sqrt(theta * theta + 4.0) - theta);
     beta = options_.accelerated ? theta * (1.0 - theta) / (theta * theta + theta_next) : 0.0;

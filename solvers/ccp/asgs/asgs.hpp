@@ -17,12 +17,15 @@
 // starting from y needs no product; d, the diagonal metric of the local steps.
 //
 // The objective is 1/2 w^T M w + r^T x + 1/2 x^T E x: a sum over bodies, and one
-// over contacts that the backward sweep takes along.
+// over contacts that the backward sweep takes along. General blocks come before
+// the contacts forwards, and after them backwards.
 #pragma once
 
 #include <vector>
 
+#include "block_momentum.hpp"
 #include "scree/ccp/delassus.hpp"
+#include "scree/ccp/sweep/block_sweep.hpp"
 #include "scree/ccp/sweep/contact_sweep.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
@@ -55,15 +58,9 @@ class Asgs final : public CcpSolver {
   struct History {
     Lanes3 x_old, y;
   };
-  /// Sums over the contacts.
-  struct Sums {
-    double against = 0.0;  ///< (y - x)^T d (x - x_old) [J]
-    double linear = 0.0;   ///< r^T x + 1/2 x^T E x [J]
-  };
-
   bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
   void prepare_inertias(const CcpProblem& problem);
-  void extrapolate_bodies(double beta);
+  void extrapolate(double beta);
   template <bool isotropic, bool compliant>
   void forward(double beta, const Executor* executor);
   template <bool isotropic, bool compliant>
@@ -78,11 +75,13 @@ class Asgs final : public CcpSolver {
 
   AsgsOptions options_;
   DelassusOperator delassus_;
-  ContactSweep sweep_;
+  ContactSweep contacts_;
+  BlockSweep blocks_;
+  BlockMomentum block_momentum_;
   std::vector<History> history_;  ///< per group
   std::vector<sweep::Body> old_;  ///< bodies as x_old has them
   std::vector<Mat3> inertia_;     ///< per body [kg m2], world; empty when all are isotropic
-  std::vector<Sums> sums_;        ///< per chunk of the sweep
+  std::vector<AsgsSums> sums_;    ///< per chunk of the sweep
   std::vector<double> partial_;
   std::vector<double> x_, x_best_;  ///< impulses [N s]
   std::vector<Twist> w_;

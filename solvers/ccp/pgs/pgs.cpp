@@ -7,6 +7,7 @@
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
 #include "scree/ccp/judge.hpp"
+#include "scree/ccp/sweep/stall_watch.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 
 namespace scree {
@@ -43,53 +44,74 @@ bool Pgs::prepare(const CcpProblem& problem, const SolveContext& context, std::s
   delassus_.bind(problem, context.executor);
   w_.resize(problem.bodies());
   delassus_.body_velocities(gamma, w_);
-  sweep_.bind(problem, {options_.coloured, options_.scalar_step, options_.relaxation});
-  sweep_.set_impulses(gamma);
-  sweep_.set_velocities(w_);
+  contacts_.bind(problem, {options_.coloured, options_.scalar_step, options_.relaxation});
+  contacts_.set_impulses(gamma);
+  contacts_.set_velocities(w_);
+  blocks_.bind(problem, contacts_, {options_.scalar_step, options_.relaxation});
+  blocks_.set_impulses(gamma);
   return true;
 }
 
 template <bool isotropic, bool compliant>
 void Pgs::sweep_with(const Executor* executor) {
-  const std::span<sweep::Group> groups = sweep_.groups();
-  sweep_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
+  const std::span<sweep::Group> groups = contacts_.groups();
+  blocks_.sweep(false);
+  contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      sweep::update<isotropic, compliant>(groups[k], sweep_.compliance(k), sweep_.bodies().data(), sweep_.inertias());
+      sweep::update<isotropic, compliant>(groups[k], contacts_.compliance(k), contacts_.bodies().data(),
+                                          contacts_.inertias());
     }
   });
 }
 
 void Pgs::sweep(const Executor* executor) {
-  const bool compliant = sweep_.compliant();
-  if (sweep_.isotropic()) return compliant ? sweep_with<true, true>(executor) : sweep_with<true, false>(executor);
+  const bool compliant = contacts_.compliant();
+  if (contacts_.isotropic()) return compliant ? sweep_with<true, true>(executor) : sweep_with<true, false>(executor);
   return compliant ? sweep_with<false, true>(executor) : sweep_with<false, false>(executor);
 }
 
 double Pgs::residual(std::span<double> gamma) {
-  sweep_.impulses(gamma);
-  sweep_.velocities(w_);
+  contacts_.impulses(gamma);
+  blocks_.impulses(gamma);
+  contacts_.velocities(w_);
+  return ccp_residual(delassus_, gamma, w_, partial_);
+}
+
+// The velocities were summed up update by update: an answer is judged from the impulses alone.
+double Pgs::refreshed_residual(std::span<double> gamma) {
+  delassus_.body_velocities(gamma, w_);
+  contacts_.set_velocities(w_);
+  blocks_.set_impulses(gamma);
   return ccp_residual(delassus_, gamma, w_, partial_);
 }
 
 SolveSummary Pgs::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
-  SCREE_REQUIRE(gamma.size() == problem.rows(), "pgs: gamma needs three numbers a contact");
-  if (problem.contacts.size() == 0) return {};
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "pgs: gamma needs one number a row");
+  if (problem.empty()) return {};
   if (!prepare(problem, context, gamma)) {
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }
   SolveSummary summary{SolveStatus::iteration_limit, 0, residual(gamma)};
+  StallWatch watch;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
     sweep(context.executor);
     const int k = ++summary.iterations;
     // Sparse flows and warm starts are done after a sweep or two: look at the powers of two as well.
     const bool look = k % options_.check_interval == 0 || k == context.max_iterations ||
                       (k < options_.check_interval && (k & (k - 1)) == 0);
-    if (look) summary.residual = residual(gamma);
+    if (look) {
+      summary.residual = residual(gamma);
+      if (summary.residual <= context.tolerance || k == context.max_iterations) {
+        summary.residual = refreshed_residual(gamma);
+      }
+    }
     if (context.on_iteration) context.on_iteration({k, look ? summary.residual : residual(gamma)});
+    if (look && summary.residual > context.tolerance && watch.stalled(k, summary.residual)) {
+      summary.status = SolveStatus::stalled;
+      summary.residual = refreshed_residual(gamma);
+      break;
+    }
   }
-  // The velocities were summed up update by update; the answer is judged from the impulses alone.
-  delassus_.body_velocities(gamma, w_);
-  summary.residual = ccp_residual(delassus_, gamma, w_, partial_);
   if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
   if (!std::isfinite(summary.residual)) {
     std::copy(guess_.begin(), guess_.end(), gamma.begin());
@@ -100,7 +122,8 @@ SolveSummary Pgs::solve(const CcpProblem& problem, const SolveContext& context, 
 
 void Pgs::release_workspace() {
   delassus_ = {};
-  sweep_ = {};
+  contacts_ = {};
+  blocks_ = {};
   release(w_, partial_, guess_);
 }
 

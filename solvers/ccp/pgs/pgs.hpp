@@ -1,11 +1,12 @@
 // Block projected Gauss-Seidel for cone complementarity problems (Tasora &
-// Anitescu 2010, 2011): contact after contact, each with the velocities that the
-// ones before it left.
+// Anitescu 2010, 2011): block after block, each with the velocities that the ones
+// before it left. General blocks first, then the contacts.
 #pragma once
 
 #include <vector>
 
 #include "scree/ccp/delassus.hpp"
+#include "scree/ccp/sweep/block_sweep.hpp"
 #include "scree/ccp/sweep/contact_sweep.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
@@ -36,11 +37,15 @@ class Pgs final : public CcpSolver {
   void sweep(const Executor* executor);
   template <bool isotropic, bool compliant>
   void sweep_with(const Executor* executor);
+  /// Of the impulses and velocities that the sweeps left.
   double residual(std::span<double> gamma);
+  /// Of the impulses alone, from which the velocities are made anew.
+  double refreshed_residual(std::span<double> gamma);
 
   PgsOptions options_;
   DelassusOperator delassus_;
-  ContactSweep sweep_;
+  ContactSweep contacts_;
+  BlockSweep blocks_;
   std::vector<Twist> w_;
   std::vector<double> partial_;
   std::vector<double> guess_;

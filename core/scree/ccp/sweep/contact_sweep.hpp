@@ -53,7 +53,7 @@ class ContactSweep {
   template <class Visit>
   void for_chunks(bool backward, const Executor* executor, const Visit& visit) const {
     const auto one = [&](std::size_t chunk) { visit(chunk, grouping_.first[chunk], grouping_.first[chunk + 1]); };
-    if (!coloured_) return one(0);
+    if (!coloured_) return chunks() == 0 ? void() : one(0);
     const std::vector<std::uint32_t>&order = colouring_.chunks(), &first = colouring_.first();
     const std::size_t colours = first.size() - 1;
     const auto left_over = [&] {  // chunks without a colour, one after the other

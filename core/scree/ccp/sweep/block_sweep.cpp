@@ -1,0 +1,117 @@
+#include "scree/ccp/sweep/block_sweep.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "scree/ccp/delassus.hpp"
+
+namespace scree {
+namespace {
+
+Vec3 first_three(const Lanes& lanes) { return {lanes[0], lanes[1], lanes[2]}; }
+
+double velocity_of(const Twist& row, const sweep::Body& body) {
+  return dot(row.linear, first_three(body.linear)) + dot(row.angular, first_three(body.angular));
+}
+
+void add(Twist& sum, double factor, const Twist& row) {
+  sum.linear += factor * row.linear;
+  sum.angular += factor * row.angular;
+}
+
+}  // namespace
+
+void BlockSweep::bind(const CcpProblem& problem, ContactSweep& contacts, const sweep::StepSettings& settings) {
+  problem_ = problem;
+  contacts_ = &contacts;
+  steps_.bind(problem_, settings);
+  const std::size_t rows = problem.rows() - problem.contact_rows();
+  r_ = problem.r.subspan(problem.contact_rows(), rows);
+  compliance_ =
+      problem.compliance.empty() ? problem.compliance : problem.compliance.subspan(problem.contact_rows(), rows);
+  g_.resize(rows);
+  v_.resize(problem.matrix.empty() ? 0 : rows);
+}
+
+void BlockSweep::set_impulses(std::span<const double> gamma) {
+  std::copy(gamma.begin() + static_cast<std::ptrdiff_t>(problem_.contact_rows()), gamma.end(), g_.begin());
+  std::fill(v_.begin(), v_.end(), 0.0);
+  if (v_.empty()) return;
+  for (std::size_t k = 0; k < problem_.blocks.size(); ++k) {
+    add_to_rows(k, std::span<const double>{g_}.subspan(problem_.blocks[k].first_row, problem_.blocks[k].rows));
+  }
+}
+
+void BlockSweep::impulses(std::span<double> gamma) const {
+  std::copy(g_.begin(), g_.end(), gamma.begin() + static_cast<std::ptrdiff_t>(problem_.contact_rows()));
+}
+
+void BlockSweep::sweep(bool backward) {
+  const std::size_t count = problem_.blocks.size();
+  for (std::size_t k = 0; k < count; ++k) update(backward ? count - 1 - k : k);
+}
+
+void BlockSweep::update(std::size_t k) {
+  const CcpBlock& block = problem_.blocks[k];
+  const std::size_t n = block.rows, first = block.first_row;
+  std::array<double, CcpBlock::kMostRows> velocity{}, change{};
+  const std::span<double> u{velocity.data(), n}, g = std::span<double>{g_}.subspan(first, n);
+  if (v_.empty()) {
+    velocity_by_bodies(block, u);
+  } else {
+    std::copy_n(v_.begin() + static_cast<std::ptrdiff_t>(first), n, u.begin());
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    u[i] += r_[first + i];
+    if (!compliance_.empty()) u[i] += compliance_[first + i] * g[i];
+    change[i] = -g[i];
+  }
+  steps_.advance(k, u, g);
+  bool moved = false;
+  for (std::size_t i = 0; i < n; ++i) moved = (change[i] += g[i]) != 0.0 || moved;
+  if (!moved) return;
+  if (v_.empty()) {
+    add_to_bodies(block, {change.data(), n});
+  } else {
+    add_to_rows(k, {change.data(), n});
+  }
+}
+
+void BlockSweep::velocity_by_bodies(const CcpBlock& block, std::span<double> u) const {
+  const sweep::Body &a = contacts_->bodies()[block.a], &b = contacts_->bodies()[block.b];
+  const CcpRow* const rows = problem_.block_rows.data() + block.first_row;
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = velocity_of(rows[i].a, a) + velocity_of(rows[i].b, b);
+}
+
+void BlockSweep::add_to_bodies(const CcpBlock& block, std::span<const double> change) {
+  Twist on_a, on_b;
+  const CcpRow* const rows = problem_.block_rows.data() + block.first_row;
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    add(on_a, change[i], rows[i].a);
+    add(on_b, change[i], rows[i].b);
+  }
+  const auto push = [&](std::uint32_t index, const Twist& impulse) {
+    if (!(problem_.inverse_mass[index] > 0.0)) return;  // never written: threads may read it
+    const Twist w = apply_inverse_mass(problem_, index, impulse);
+    sweep::Body& body = contacts_->bodies()[index];
+    body.linear += Lanes{w.linear.x, w.linear.y, w.linear.z, 0.0};
+    body.angular += Lanes{w.angular.x, w.angular.y, w.angular.z, 0.0};
+  };
+  push(block.a, on_a);
+  push(block.b, on_b);
+}
+
+// N is symmetric: column k of it is row k, block by block turned over.
+void BlockSweep::add_to_rows(std::size_t k, std::span<const double> change) {
+  const CcpMatrix& matrix = problem_.matrix;
+  for (std::uint32_t at = matrix.first[k]; at < matrix.first[k + 1]; ++at) {
+    const CcpBlock& other = problem_.blocks[matrix.column[at]];
+    const double* const values = matrix.values.data() + matrix.value[at];
+    double* const v = v_.data() + other.first_row;
+    for (std::size_t i = 0; i < change.size(); ++i) {
+      for (std::size_t j = 0; j < other.rows; ++j) v[j] += values[i * other.rows + j] * change[i];
+    }
+  }
+}
+
+}  // namespace scree
