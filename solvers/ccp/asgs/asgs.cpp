@@ -63,8 +63,10 @@ bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::
   blocks_.bind(problem, contacts_, {});
   blocks_.set_impulses(gamma);
   block_momentum_.start(blocks_);
-  history_.assign(contacts_.groups().size(), History{});
-  for (std::size_t k = 0; k < history_.size(); ++k) history_[k].x_old = contacts_.groups()[k].g;
+  history_.assign(contacts_.groups(), History{});
+  contacts_.with_layout([&](const auto& layout) {
+    for (std::size_t k = 0; k < history_.size(); ++k) history_[k].x_old = layout.impulse(k);
+  });
   old_.assign(contacts_.bodies().begin(), contacts_.bodies().end());
   sums_.assign(contacts_.chunks(), AsgsSums{});
   x_.assign(gamma.begin(), gamma.end());
@@ -96,66 +98,45 @@ void Asgs::extrapolate(double beta) {
   });
 }
 
-template <bool isotropic, bool compliant>
 void Asgs::forward(double beta, const Executor* executor) {
-  const std::span<sweep::Group> groups = contacts_.groups();
-  sweep::Body* const bodies = contacts_.bodies().data();
-  contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
-    const Lanes momentum = Lanes{} + beta;
-    for (std::size_t k = first; k < last; ++k) {
-      sweep::Group& group = groups[k];
-      History& history = history_[k];
-      const Lanes3 x = group.g;
-      group.g = history.y = x + momentum * (x - history.x_old);
-      history.x_old = x;
-      sweep::update<isotropic, compliant>(group, contacts_.compliance(k), bodies, contacts_.inertias());
-    }
-  });
-}
-
-template <bool isotropic, bool compliant>
-void Asgs::backward(const Executor* executor) {
-  const std::span<sweep::Group> groups = contacts_.groups();
-  sweep::Body* const bodies = contacts_.bodies().data();
-  contacts_.for_chunks(true, executor, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    Lanes against{}, linear{};
-    const Lanes zero{};
-    for (std::size_t k = last; k-- > first;) {
-      sweep::Group& group = groups[k];
-      sweep::update<isotropic, compliant>(group, contacts_.compliance(k), bodies, contacts_.inertias());
-      const Lanes3 back = history_[k].y - group.g, step = group.g - history_[k].x_old;
-      const Lanes along = back.x * step.x / group.step_n;
-      const Lanes across = (back.y * step.y + back.z * step.z) / group.step_t;
-      against += group.step_n > zero ? along + across : zero;  // lanes without a contact have no metric
-      linear += dot(group.r, group.g);
-      if constexpr (compliant) {
-        const Lanes3& e = *contacts_.compliance(k);
-        linear += 0.5 * (e.x * group.g.x * group.g.x + e.y * group.g.y * group.g.y + e.z * group.g.z * group.g.z);
+  contacts_.with_layout([&](const auto& layout) {
+    contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
+      const Lanes momentum = Lanes{} + beta;
+      for (std::size_t k = first; k < last; ++k) {
+        History& history = history_[k];
+        Lanes3& g = layout.impulse(k);
+        const Lanes3 x = g;
+        g = history.y = x + momentum * (x - history.x_old);
+        history.x_old = x;
+        layout.update(k);
       }
-    }
-    sums_[chunk] = {sum_of(against), sum_of(linear)};
+    });
   });
 }
 
-template <bool isotropic, bool compliant>
-void Asgs::sweeps(double beta, bool both, const Executor* executor) {
-  blocks_.sweep(false);
-  forward<isotropic, compliant>(beta, executor);
-  if (!both) return;
-  backward<isotropic, compliant>(executor);
-  blocks_.sweep(true);
+void Asgs::backward(const Executor* executor) {
+  contacts_.with_layout([&](const auto& layout) {
+    contacts_.for_chunks(true, executor, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+      Lanes against{}, linear{};
+      for (std::size_t k = last; k-- > first;) {
+        layout.update(k);
+        const Lanes3& g = layout.impulse(k);
+        against += layout.metric_product(k, history_[k].y - g, g - history_[k].x_old);
+        linear += layout.linear(k);
+      }
+      sums_[chunk] = {sum_of(against), sum_of(linear)};
+    });
+  });
 }
 
 // From x to the next iterate. The objective is known after both sweeps only.
 void Asgs::advance(double beta, bool both, const Executor* executor) {
-  const bool compliant = contacts_.compliant();
   extrapolate(beta);
-  if (contacts_.isotropic()) {
-    compliant ? sweeps<true, true>(beta, both, executor) : sweeps<true, false>(beta, both, executor);
-  } else {
-    compliant ? sweeps<false, true>(beta, both, executor) : sweeps<false, false>(beta, both, executor);
-  }
+  blocks_.sweep(false);
+  forward(beta, executor);
   if (!both) return;
+  backward(executor);
+  blocks_.sweep(true);
   AsgsSums total = block_momentum_.sums(blocks_);
   for (const AsgsSums& s : sums_) total.against += s.against, total.linear += s.linear;
   against_ = total.against;
@@ -164,8 +145,9 @@ void Asgs::advance(double beta, bool both, const Executor* executor) {
 
 // Back to where the last pair came from.
 void Asgs::undo() {
-  const std::span<sweep::Group> groups = contacts_.groups();
-  for (std::size_t k = 0; k < groups.size(); ++k) groups[k].g = history_[k].x_old;
+  contacts_.with_layout([&](const auto& layout) {
+    for (std::size_t k = 0; k < history_.size(); ++k) layout.impulse(k) = history_[k].x_old;
+  });
   std::copy(old_.begin(), old_.end(), contacts_.bodies().begin());
   block_momentum_.undo(blocks_);
   ++undone_;

@@ -61,12 +61,8 @@ class Asgs final : public CcpSolver {
   bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
   void prepare_inertias(const CcpProblem& problem);
   void extrapolate(double beta);
-  template <bool isotropic, bool compliant>
   void forward(double beta, const Executor* executor);
-  template <bool isotropic, bool compliant>
   void backward(const Executor* executor);
-  template <bool isotropic, bool compliant>
-  void sweeps(double beta, bool both, const Executor* executor);
   void advance(double beta, bool both, const Executor* executor);
   void undo();
   double kinetic_energy();

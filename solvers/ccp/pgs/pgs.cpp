@@ -52,22 +52,13 @@ bool Pgs::prepare(const CcpProblem& problem, const SolveContext& context, std::s
   return true;
 }
 
-template <bool isotropic, bool compliant>
-void Pgs::sweep_with(const Executor* executor) {
-  const std::span<sweep::Group> groups = contacts_.groups();
-  blocks_.sweep(false);
-  contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      sweep::update<isotropic, compliant>(groups[k], contacts_.compliance(k), contacts_.bodies().data(),
-                                          contacts_.inertias());
-    }
-  });
-}
-
 void Pgs::sweep(const Executor* executor) {
-  const bool compliant = contacts_.compliant();
-  if (contacts_.isotropic()) return compliant ? sweep_with<true, true>(executor) : sweep_with<true, false>(executor);
-  return compliant ? sweep_with<false, true>(executor) : sweep_with<false, false>(executor);
+  blocks_.sweep(false);
+  contacts_.with_layout([&](const auto& layout) {
+    contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) layout.update(k);
+    });
+  });
 }
 
 double Pgs::residual(std::span<double> gamma) {

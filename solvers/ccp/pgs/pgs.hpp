@@ -35,8 +35,6 @@ class Pgs final : public CcpSolver {
  private:
   bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
   void sweep(const Executor* executor);
-  template <bool isotropic, bool compliant>
-  void sweep_with(const Executor* executor);
   /// Of the impulses and velocities that the sweeps left.
   double residual(std::span<double> gamma);
   /// Of the impulses alone, from which the velocities are made anew.

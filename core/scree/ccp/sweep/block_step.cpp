@@ -138,7 +138,10 @@ BlockMetric bounding_metric(const CcpBlock& block, std::span<const double> a) {
     for (std::size_t q = 0; q < m; ++q) {
       const bool coupled = p != q && parts.list[p].coefficient > 0.0 && parts.list[q].coefficient > 0.0;
       const double product = own[p] * own[q];
-      if (coupled && product > 0.0) c[p][q] = norm_of(a, n, parts.list[p], parts.list[q]) / std::sqrt(product);
+      if (!coupled || !(product > 0.0)) continue;
+      const double there = norm_of(a, n, parts.list[p], parts.list[q]),
+                   back = norm_of(a, n, parts.list[q], parts.list[p]);
+      c[p][q] = std::max(there, back) / std::sqrt(product);
     }
     c[p][p] = 1.0;
   }

@@ -31,6 +31,7 @@ void BlockSweep::bind(const CcpProblem& problem, ContactSweep& contacts, const s
       problem.compliance.empty() ? problem.compliance : problem.compliance.subspan(problem.contact_rows(), rows);
   g_.resize(rows);
   v_.resize(problem.matrix.empty() ? 0 : rows);
+  if (!problem.matrix.empty()) bind_columns();
 }
 
 void BlockSweep::set_impulses(std::span<const double> gamma) {
@@ -101,15 +102,32 @@ void BlockSweep::add_to_bodies(const CcpBlock& block, std::span<const double> ch
   push(block.b, on_b);
 }
 
-// N is symmetric: column k of it is row k, block by block turned over.
-void BlockSweep::add_to_rows(std::size_t k, std::span<const double> change) {
+// Counting sort of the non-zero blocks by column.
+void BlockSweep::bind_columns() {
   const CcpMatrix& matrix = problem_.matrix;
-  for (std::uint32_t at = matrix.first[k]; at < matrix.first[k + 1]; ++at) {
-    const CcpBlock& other = problem_.blocks[matrix.column[at]];
-    const double* const values = matrix.values.data() + matrix.value[at];
-    double* const v = v_.data() + other.first_row;
-    for (std::size_t i = 0; i < change.size(); ++i) {
-      for (std::size_t j = 0; j < other.rows; ++j) v[j] += values[i * other.rows + j] * change[i];
+  const std::size_t count = problem_.blocks.size();
+  column_first_.assign(count + 2, 0);
+  column_row_.resize(matrix.column.size());
+  column_value_.resize(matrix.column.size());
+  // Counted two places further on, so that filling leaves every number where it belongs.
+  for (const std::uint32_t j : matrix.column) ++column_first_[j + 2];
+  for (std::size_t j = 2; j < column_first_.size(); ++j) column_first_[j] += column_first_[j - 1];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t at = matrix.first[i]; at < matrix.first[i + 1]; ++at) {
+      const std::uint32_t place = column_first_[matrix.column[at] + 1]++;
+      column_row_[place] = i;
+      column_value_[place] = matrix.value[at];
+    }
+  }
+}
+
+void BlockSweep::add_to_rows(std::size_t k, std::span<const double> change) {
+  for (std::uint32_t at = column_first_[k]; at < column_first_[k + 1]; ++at) {
+    const CcpBlock& row = problem_.blocks[column_row_[at]];
+    const double* const values = problem_.matrix.values.data() + column_value_[at];
+    double* const v = v_.data() + row.first_row;
+    for (std::size_t i = 0; i < row.rows; ++i) {
+      for (std::size_t j = 0; j < change.size(); ++j) v[i] += values[i * change.size() + j] * change[j];
     }
   }
 }

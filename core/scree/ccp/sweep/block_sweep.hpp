@@ -2,8 +2,9 @@
 //
 // A block reads its velocity u and moves its impulse (block_step.hpp), then adds what the change causes. With bodies that is
 // u = J w + E g + r, and the change goes to the velocities w of two bodies, those that a ContactSweep holds for the contacts
-// as well. With an explicit matrix it is u = v + E g + r with v = N g kept up to date, and the change goes to v: a block that
-// does not move costs nothing. Either way the sweep's state (w or v) is linear in the impulses.
+// as well. With an explicit matrix it is u = v + E g + r with v = (N - E) g kept up to date, and the change goes to v, column by
+// column: a block that does not move costs nothing. Either way the sweep's state (w or v) is linear in the impulses.
+// (Matrices in files are not always symmetric to the last digits, so that rows cannot stand for columns.)
 //
 // One block after the other, on the calling thread: blocks are joints and the like, few beside contacts.
 #pragma once
@@ -45,6 +46,7 @@ class BlockSweep {
   void update(std::size_t k);
   void velocity_by_bodies(const CcpBlock& block, std::span<double> u) const;
   void add_to_bodies(const CcpBlock& block, std::span<const double> change);
+  void bind_columns();
   void add_to_rows(std::size_t k, std::span<const double> change);
 
   CcpProblem problem_;
@@ -52,6 +54,9 @@ class BlockSweep {
   sweep::BlockSteps steps_;
   std::span<const double> r_, compliance_;
   std::vector<double> g_, v_;
+  /// Of the matrix: block column j has the blocks column_first_[j] .. column_first_[j + 1] - 1.
+  std::vector<std::uint32_t> column_first_, column_row_;
+  std::vector<std::size_t> column_value_;
 };
 
 }  // namespace scree

@@ -1,8 +1,8 @@
 // ContactSweep: the contacts and bodies of a problem, laid out for sweeps that go contact by contact.
 //
 // Contacts lie in groups of four, one a vector lane (grouping.hpp); groups in chunks, which go in the order of the contacts, or
-// by colours, several threads at a time (colouring.hpp). What a sweep does with a group is the solver's: it loops over the
-// groups of a chunk and calls update() (update.hpp), or something of its own.
+// by colours, several threads at a time (colouring.hpp). What a sweep does with a group is the solver's: it takes the layout
+// that the problem allows (layout.hpp), loops over the groups of a chunk and calls update(), or something of its own.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@
 #include "scree/ccp/problem.hpp"
 #include "scree/ccp/sweep/colouring.hpp"
 #include "scree/ccp/sweep/grouping.hpp"
+#include "scree/ccp/sweep/layout.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
-#include "scree/ccp/sweep/update.hpp"
 #include "scree/ccp/twist.hpp"
 #include "scree/parallel/executor.hpp"
 
@@ -28,6 +28,7 @@ class ContactSweep {
     double relaxation = 1.0;   ///< omega [1]
   };
 
+  /// The contacts of `problem` stay where they are during the use.
   void bind(const CcpProblem& problem, const Settings& settings);
 
   /// Sets all impulses (3 m) [N s].
@@ -37,15 +38,26 @@ class ContactSweep {
   void set_velocities(std::span<const Twist> w);
   void velocities(std::span<Twist> w) const;
 
-  /// All bodies have an inverse inertia that is a multiple of the identity: inertias() is empty.
+  /// All bodies have an inverse inertia that is a multiple of the identity.
   [[nodiscard]] bool isotropic() const { return inertias_.empty(); }
-  [[nodiscard]] bool compliant() const { return !compliance_.empty(); }
-  [[nodiscard]] std::span<sweep::Group> groups() { return groups_; }
-  /// Of group k; null for problems without compliance.
-  [[nodiscard]] const Lanes3* compliance(std::size_t k) const { return compliant() ? &compliance_[k] : nullptr; }
+  /// Groups of four contacts.
+  [[nodiscard]] std::size_t groups() const { return grouping_.groups.size(); }
+  /// Bodies of the lanes of group k.
+  [[nodiscard]] const std::array<std::uint32_t, 4>& first_bodies(std::size_t k) const;
+  [[nodiscard]] const std::array<std::uint32_t, 4>& second_bodies(std::size_t k) const;
+  /// Calls visit(layout) with that of layout.hpp which holds the contacts.
+  template <class Visit>
+  void with_layout(const Visit& visit) {
+    if (spherical_) return visit(sweep::SphereLayout{spheres_.data(), bodies_.data()});
+    const bool compliant = !compliance_.empty();
+    if (isotropic()) {
+      compliant ? visit(layout<true, true>()) : visit(layout<true, false>());
+    } else {
+      compliant ? visit(layout<false, true>()) : visit(layout<false, false>());
+    }
+  }
   /// One more than the problem has: empty lanes refer to the last, which is immovable.
   [[nodiscard]] std::span<sweep::Body> bodies() { return bodies_; }
-  [[nodiscard]] const sweep::Inertia* inertias() const { return inertias_.data(); }
 
   [[nodiscard]] std::size_t chunks() const { return grouping_.first.size() - 1; }
   /// Calls visit(chunk, first group, one past the last group) chunk by chunk in the order of a sweep, or `backward` in the
@@ -79,13 +91,22 @@ class ContactSweep {
  private:
   void bind_bodies(const CcpProblem& problem);
   void bind_groups(const CcpProblem& problem, const Settings& settings);
+  /// Fills lane `lane` of group `at` with contact i and its step.
+  void put_contact(const CcpProblem& problem, std::size_t at, int lane, std::size_t i, const sweep::LocalStep& step);
+  template <bool isotropic, bool compliant>
+  sweep::GeneralLayout<isotropic, compliant> layout() {
+    return {groups_.data(), compliance_.data(), bodies_.data(), inertias_.data()};
+  }
 
   bool coloured_ = false;
+  bool spherical_ = false;
+  std::span<const CcpContact> contacts_;
   sweep::Grouping grouping_;
   sweep::Colouring colouring_;
   std::vector<sweep::Body> bodies_;
   std::vector<sweep::Inertia> inertias_;
-  std::vector<sweep::Group> groups_;
+  std::vector<sweep::Group> groups_;         ///< empty when spherical
+  std::vector<sweep::SphereGroup> spheres_;  ///< empty when not
   std::vector<Lanes3> compliance_;
 };
 
