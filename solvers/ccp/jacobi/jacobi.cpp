@@ -7,6 +7,7 @@
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
 #include "scree/ccp/judge.hpp"
+#include "scree/ccp/sweep/stall_watch.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 
 namespace scree {
@@ -40,14 +41,25 @@ bool Jacobi::prepare(const CcpProblem& problem, const SolveContext& context, std
 }
 
 void Jacobi::prepare_steps(const CcpProblem& problem) {
-  contacts_of_.assign(problem.bodies(), 0);
-  for (const CcpContact& c : problem.contacts) ++contacts_of_[c.a], ++contacts_of_[c.b];
+  units_of_.assign(problem.bodies(), 0.0);
+  neighbours_of_.clear();
+  for (const CcpContact& c : problem.contacts) ++units_of_[c.a], ++units_of_[c.b];
+  for (std::size_t k = 0; k < problem.blocks.size(); ++k) {
+    const CcpBlock& block = problem.blocks[k];
+    if (!problem.matrix.empty()) {
+      neighbours_of_.push_back(problem.matrix.first[k + 1] - problem.matrix.first[k]);
+      continue;
+    }
+    ++units_of_[block.a];
+    if (block.b != block.a) ++units_of_[block.b];
+  }
+  block_steps_.bind(problem, {.relaxation = options_.relaxation}, units_of_, neighbours_of_);
   steps_.resize(problem.contacts.size());
   delassus_.for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       // The block of a problem in which both bodies are as much lighter as they have contacts.
       CcpContact contact = problem.contacts[i];
-      const double a = contacts_of_[contact.a], b = contacts_of_[contact.b];
+      const double a = units_of_[contact.a], b = units_of_[contact.b];
       const auto lighter = [](double c, const Mat3& j) { return Mat3{c * j.row0, c * j.row1, c * j.row2}; };
       const std::array<double, 2> mass{a * problem.inverse_mass[contact.a], b * problem.inverse_mass[contact.b]};
       const std::array<Mat3, 2> inertia{lighter(a, problem.inverse_inertia[contact.a]),
@@ -61,48 +73,75 @@ void Jacobi::prepare_steps(const CcpProblem& problem) {
   });
 }
 
-// One step of all contacts, and the body velocities that belong to it.
+void Jacobi::advance_contact(std::size_t i, std::span<double> gamma) {
+  const CcpProblem& problem = delassus_.problem();
+  const SlotPair slot = delassus_.partition().slots()[i];
+  const CcpContact& c = problem.contacts[i];
+  const Vec3 g = load_block(gamma, i);
+  Vec3 u = relative_velocity(c, w_[c.a], w_[c.b]) + load_block(problem.r, i);
+  if (!problem.compliance.empty()) u += hadamard(load_block(problem.compliance, i), g);
+  const sweep::LocalStep& s = steps_[i];
+  const Vec3 trial{g.x - s.normal * u.x, g.y - s.tangent * u.y, g.z - s.tangent * u.z};
+  const Vec3 next = project_cone3(trial, c.friction, s.weights);
+  store_block(gamma, i, next);
+  add_impulse(c, next, slots_[slot.a], slots_[slot.b]);
+}
+
+void Jacobi::advance_block(std::size_t k, std::span<const double> before, std::span<double> gamma) {
+  const CcpProblem& problem = delassus_.problem();
+  const CcpBlock& block = problem.blocks[k];
+  const std::span<double> g = rows_of(problem, block, gamma);
+  const std::span<const double> r = rows_of(problem, block, problem.r);
+  BlockVector u;
+  delassus_.block_velocity(k, w_, before, u);
+  for (std::size_t i = 0; i < g.size(); ++i) u[i] += r[i];
+  block_steps_.advance(k, {u.data(), g.size()}, g);
+  if (slots_.empty()) return;  // a matrix
+  const SlotPair slot = delassus_.partition().slots()[problem.contacts.size() + k];
+  add_impulse(jacobian_of(problem, block), g, slots_[slot.a], slots_[slot.b]);
+}
+
+// One step of all contacts and blocks, and the body velocities that belong to it.
 void Jacobi::iterate(std::span<double> gamma) {
   const CcpProblem& problem = delassus_.problem();
-  const bool compliant = !problem.compliance.empty();
-  const std::span<const SlotPair> slots = delassus_.partition().slots();
+  std::span<const double> before = gamma;
+  if (!problem.matrix.empty()) {
+    before_.assign(gamma.begin(), gamma.end());
+    before = before_;
+  }
   delassus_.for_chunks(slots_.size(), [&](std::size_t first, std::size_t last) {
     std::fill(slots_.data() + first, slots_.data() + last, Twist{});
   });
-  delassus_.for_chunks(problem.contacts.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const CcpContact& c = problem.contacts[i];
-      const Vec3 g = load_block(gamma, i);
-      Vec3 u = relative_velocity(c, w_[c.a], w_[c.b]) + load_block(problem.r, i);
-      if (compliant) u += hadamard(load_block(problem.compliance, i), g);
-      const sweep::LocalStep& s = steps_[i];
-      const Vec3 trial{g.x - s.normal * u.x, g.y - s.tangent * u.y, g.z - s.tangent * u.z};
-      const Vec3 next = project_cone3(trial, c.friction, s.weights);
-      store_block(gamma, i, next);
-      add_impulse(c, next, slots_[slots[i].a], slots_[slots[i].b]);
-    }
+  delassus_.for_chunks(problem.units(), [&](std::size_t first, std::size_t last) {
+    delassus_.for_units(
+        first, last, [&](std::size_t i) { advance_contact(i, gamma); },
+        [&](std::size_t k) { advance_block(k, before, gamma); });
   });
-  delassus_.reduce_slots(slots_, w_);
+  if (problem.matrix.empty()) delassus_.reduce_slots(slots_, w_);
 }
 
 SolveSummary Jacobi::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
-  SCREE_REQUIRE(gamma.size() == problem.rows(), "jacobi: gamma needs three numbers a contact");
-  if (problem.contacts.size() == 0) return {};
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "jacobi: gamma needs one number a row");
+  if (problem.empty()) return {};
   if (!prepare(problem, context, gamma)) {
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }
   SolveSummary summary{SolveStatus::iteration_limit, 0, ccp_residual(delassus_, gamma, w_, partial_)};
+  StallWatch watch;
   int next_look = 1;
-  while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
+  bool stalled = false;
+  while (summary.residual > context.tolerance && summary.iterations < context.max_iterations && !stalled) {
     iterate(gamma);
     const int k = ++summary.iterations;
     const bool looking = k >= next_look || k == context.max_iterations;
     if (looking) {
       summary.residual = ccp_residual(delassus_, gamma, w_, partial_);
       next_look = k < options_.check_interval ? 2 * k : k + options_.check_interval;
+      stalled = watch.stalled(k, summary.residual);
     }
     if (context.on_iteration) context.on_iteration({k, looking ? summary.residual : -1.0});
   }
+  if (stalled) summary.status = SolveStatus::stalled;
   if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
   if (!std::isfinite(summary.residual)) {
     std::copy(guess_.begin(), guess_.end(), gamma.begin());

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "scree/ccp/delassus.hpp"
+#include "scree/ccp/block_rows.hpp"
 
 namespace scree::sweep {
 namespace {
 
 constexpr std::size_t kMost = CcpBlock::kMostRows;
-using Rows = std::array<double, kMost>;
+using Rows = BlockVector;
 
 /// Rows whose own stiffness, beside that of the rows they depend on, is less than this share of it are left out.
 constexpr double kDependent = 1e-12;
@@ -19,41 +19,31 @@ constexpr double kDependent = 1e-12;
 constexpr int kConeSteps = 8;
 constexpr double kSmallChange = 1e-6;
 
-double dot(const Twist& a, const Twist& b) { return scree::dot(a.linear, b.linear) + scree::dot(a.angular, b.angular); }
-
-Twist operator+(const Twist& a, const Twist& b) { return {a.linear + b.linear, a.angular + b.angular}; }
-
-/// Adds weight J M^-1 J^T of one body, with J = rows[..].*side (the sum of both where the block has one body only).
-template <class Side>
-void add_body(const CcpProblem& problem, std::span<const CcpRow> rows, std::uint32_t body, double weight,
-              const Side& side, std::span<double> a) {
-  const std::size_t n = rows.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Twist moved = apply_inverse_mass(problem, body, side(rows[i]));
-    for (std::size_t j = 0; j < n; ++j) a[i * n + j] += weight * dot(moved, side(rows[j]));
+/// A of block k without compliance, as BlockSteps::bind() describes it.
+void fill_part(const CcpProblem& problem, std::size_t k, std::span<const double> body_weights, std::span<double> a) {
+  CcpProblem part = problem;
+  part.compliance = {};
+  if (body_weights.empty()) return diagonal_block_of_block(part, k, a);
+  // The same block between two bodies that are lighter by their weights. (One body alone on both sides stays one.)
+  CcpBlock block = problem.blocks[k];
+  const std::array<std::uint32_t, 2> bodies{block.a, block.b};
+  std::array<double, 2> mass{};
+  std::array<Mat3, 2> inertia;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double weight = body_weights[bodies[side]];
+    const Mat3& j = problem.inverse_inertia[bodies[side]];
+    mass[side] = weight * problem.inverse_mass[bodies[side]];
+    inertia[side] = {weight * j.row0, weight * j.row1, weight * j.row2};
   }
-}
-
-void fill_from_bodies(const CcpProblem& problem, const CcpBlock& block, std::span<const double> weights,
-                      std::span<double> a) {
-  const auto weight = [&](std::uint32_t body) { return weights.empty() ? 1.0 : weights[body]; };
-  const std::span<const CcpRow> rows = problem.block_rows.subspan(block.first_row, block.rows);
-  if (block.a == block.b) {
-    return add_body(
-        problem, rows, block.a, weight(block.a), [](const CcpRow& row) { return row.a + row.b; }, a);
-  }
-  add_body(
-      problem, rows, block.a, weight(block.a), [](const CcpRow& row) { return row.a; }, a);
-  add_body(
-      problem, rows, block.b, weight(block.b), [](const CcpRow& row) { return row.b; }, a);
-}
-
-void fill_from_matrix(const CcpMatrix& matrix, std::size_t k, std::span<double> a) {
-  for (std::uint32_t at = matrix.first[k]; at < matrix.first[k + 1]; ++at) {
-    if (matrix.column[at] != k) continue;
-    const std::span<const double> block = matrix.values.subspan(matrix.value[at], a.size());
-    std::copy(block.begin(), block.end(), a.begin());
-  }
+  part.block_rows = jacobian_of(problem, block);
+  block.b = block.a == block.b ? 0 : 1;
+  block.a = 0;
+  block.first_row = 0;
+  part.contacts = {};
+  part.inverse_mass = mass;
+  part.inverse_inertia = inertia;
+  part.blocks = {&block, 1};
+  diagonal_block_of_block(part, 0, a);
 }
 
 /// Replaces symmetric positive semi-definite `a` (n x n) by a matrix G with a G a = a, up to rounding: the inverse of the
@@ -179,13 +169,9 @@ void BlockSteps::bind(const CcpProblem& problem, const StepSettings& settings, s
   matrices_.assign(first_.back(), 0.0);
   stiffness_.assign(problem.rows() - problem.contact_rows(), 0.0);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    const std::size_t n = blocks_[k].rows, row = problem.contact_rows() + blocks_[k].first_row;
+    const std::size_t n = blocks_[k].rows, row = first_row(problem, blocks_[k]);
     const std::span<double> a{matrices_.data() + first_[k], n * n};
-    if (problem.matrix.empty()) {
-      fill_from_bodies(problem, blocks_[k], body_weights, a);
-    } else {
-      fill_from_matrix(problem.matrix, k, a);
-    }
+    fill_part(problem, k, body_weights, a);
     for (double& x : a) x *= block_weights.empty() ? 1.0 : block_weights[k];
     for (std::size_t i = 0; i < n && !problem.compliance.empty(); ++i) a[i * n + i] += problem.compliance[row + i];
     prepare(k, settings);

@@ -1,7 +1,6 @@
 #include "scree/ccp/sweep/block_sweep.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "scree/ccp/delassus.hpp"
 
@@ -10,14 +9,7 @@ namespace {
 
 Vec3 first_three(const Lanes& lanes) { return {lanes[0], lanes[1], lanes[2]}; }
 
-double velocity_of(const Twist& row, const sweep::Body& body) {
-  return dot(row.linear, first_three(body.linear)) + dot(row.angular, first_three(body.angular));
-}
-
-void add(Twist& sum, double factor, const Twist& row) {
-  sum.linear += factor * row.linear;
-  sum.angular += factor * row.angular;
-}
+Twist twist_of(const sweep::Body& body) { return {first_three(body.linear), first_three(body.angular)}; }
 
 }  // namespace
 
@@ -55,10 +47,11 @@ void BlockSweep::sweep(bool backward) {
 void BlockSweep::update(std::size_t k) {
   const CcpBlock& block = problem_.blocks[k];
   const std::size_t n = block.rows, first = block.first_row;
-  std::array<double, CcpBlock::kMostRows> velocity{}, change{};
+  BlockVector velocity{}, change{};
   const std::span<double> u{velocity.data(), n}, g = std::span<double>{g_}.subspan(first, n);
   if (v_.empty()) {
-    velocity_by_bodies(block, u);
+    const std::span<const sweep::Body> bodies = contacts_->bodies();
+    relative_velocity(jacobian_of(problem_, block), twist_of(bodies[block.a]), twist_of(bodies[block.b]), u);
   } else {
     std::copy_n(v_.begin() + static_cast<std::ptrdiff_t>(first), n, u.begin());
   }
@@ -78,19 +71,9 @@ void BlockSweep::update(std::size_t k) {
   }
 }
 
-void BlockSweep::velocity_by_bodies(const CcpBlock& block, std::span<double> u) const {
-  const sweep::Body &a = contacts_->bodies()[block.a], &b = contacts_->bodies()[block.b];
-  const CcpRow* const rows = problem_.block_rows.data() + block.first_row;
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] = velocity_of(rows[i].a, a) + velocity_of(rows[i].b, b);
-}
-
 void BlockSweep::add_to_bodies(const CcpBlock& block, std::span<const double> change) {
   Twist on_a, on_b;
-  const CcpRow* const rows = problem_.block_rows.data() + block.first_row;
-  for (std::size_t i = 0; i < change.size(); ++i) {
-    add(on_a, change[i], rows[i].a);
-    add(on_b, change[i], rows[i].b);
-  }
+  add_impulse(jacobian_of(problem_, block), change, on_a, on_b);
   const auto push = [&](std::uint32_t index, const Twist& impulse) {
     if (!(problem_.inverse_mass[index] > 0.0)) return;  // never written: threads may read it
     const Twist w = apply_inverse_mass(problem_, index, impulse);

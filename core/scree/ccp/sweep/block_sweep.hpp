@@ -44,7 +44,6 @@ class BlockSweep {
 
  private:
   void update(std::size_t k);
-  void velocity_by_bodies(const CcpBlock& block, std::span<double> u) const;
   void add_to_bodies(const CcpBlock& block, std::span<const double> change);
   void bind_columns();
   void add_to_rows(std::size_t k, std::span<const double> change);
