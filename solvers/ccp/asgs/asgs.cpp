@@ -137,10 +137,16 @@ void Asgs::advance(double beta, bool both, const Executor* executor) {
   if (!both) return;
   backward(executor);
   blocks_.sweep(true);
-  AsgsSums total = block_momentum_.sums(blocks_);
-  for (const AsgsSums& s : sums_) total.against += s.against, total.linear += s.linear;
-  against_ = total.against;
-  objective_ = kinetic_energy() + total.linear;
+  against_ = block_momentum_.sums(blocks_).against;
+  for (const AsgsSums& s : sums_) against_ += s.against;
+  objective_ = objective();
+}
+
+// Of the state after a backward sweep.
+double Asgs::objective() {
+  double linear = block_momentum_.sums(blocks_).linear;
+  for (const AsgsSums& s : sums_) linear += s.linear;
+  return kinetic_energy() + linear;
 }
 
 // Back to where the last pair came from.
@@ -185,11 +191,27 @@ double Asgs::residual(std::span<double> gamma) {
   return ccp_residual(delassus_, gamma, w_, partial_);
 }
 
-// Keeps x if it is the best so far. The sweeps go on with the velocities that its impulses have, without what rounding added.
+// Gives the bodies and rows of x the velocities w_ that its impulses have, without what rounding added, and those of x_old
+// the same correction, so that the momentum stays.
+void Asgs::refresh() {
+  const std::span<sweep::Body> bodies = contacts_.bodies();
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    old_[k].linear -= bodies[k].linear;
+    old_[k].angular -= bodies[k].angular;
+  }
+  contacts_.set_velocities(w_);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    old_[k].linear += bodies[k].linear;
+    old_[k].angular += bodies[k].angular;
+  }
+  block_momentum_.refresh(blocks_, x_);
+  objective_ = objective();
+}
+
+// Keeps x if it is the best so far.
 void Asgs::look(SolveSummary& summary) {
   const double now = residual(x_);
-  contacts_.set_velocities(w_);
-  blocks_.set_impulses(x_);
+  refresh();
   if (now < summary.residual) {
     summary.residual = now;
     std::copy(x_.begin(), x_.end(), x_best_.begin());
@@ -206,7 +228,7 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
   // Any sweep beats the guess, whose residual may be small by accident far away.
   SolveSummary summary{SolveStatus::iteration_limit, 0, std::numeric_limits<double>::infinity()};
   if (guess_residual <= context.tolerance) summary.residual = guess_residual;
-  StallWatch watch;
+  StallWatch watch{problem.r};
   double theta = 1.0, beta = 0.0;
   int next_look = 2;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {

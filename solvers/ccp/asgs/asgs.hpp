@@ -66,7 +66,9 @@ class Asgs final : public CcpSolver {
   void advance(double beta, bool both, const Executor* executor);
   void undo();
   double kinetic_energy();
+  double objective();
   double residual(std::span<double> gamma);
+  void refresh();
   void look(SolveSummary& summary);
 
   AsgsOptions options_;

@@ -42,6 +42,14 @@ class BlockMomentum {
     std::copy(v_old_.begin(), v_old_.end(), blocks.v().begin());
   }
 
+  /// Makes v anew from the impulses `x` of the whole problem, which `blocks` has; v of x_old gets the same correction.
+  void refresh(BlockSweep& blocks, std::span<const double> x) {
+    const std::span<double> v = blocks.v();
+    for (std::size_t i = 0; i < v.size(); ++i) v_old_[i] -= v[i];
+    blocks.set_impulses(x);
+    for (std::size_t i = 0; i < v.size(); ++i) v_old_[i] += v[i];
+  }
+
   [[nodiscard]] AsgsSums sums(BlockSweep& blocks) const {
     const std::span<const double> x = blocks.g(), d = blocks.stiffness(), v = blocks.v(), e = blocks.compliance();
     AsgsSums sums;

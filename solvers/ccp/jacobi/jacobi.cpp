@@ -127,7 +127,7 @@ SolveSummary Jacobi::solve(const CcpProblem& problem, const SolveContext& contex
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }
   SolveSummary summary{SolveStatus::iteration_limit, 0, ccp_residual(delassus_, gamma, w_, partial_)};
-  StallWatch watch;
+  StallWatch watch{problem.r};
   int next_look = 1;
   bool stalled = false;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations && !stalled) {

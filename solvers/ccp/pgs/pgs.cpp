@@ -83,7 +83,7 @@ SolveSummary Pgs::solve(const CcpProblem& problem, const SolveContext& context, 
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }
   SolveSummary summary{SolveStatus::iteration_limit, 0, residual(gamma)};
-  StallWatch watch;
+  StallWatch watch{problem.r};
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
     sweep(context.executor);
     const int k = ++summary.iterations;

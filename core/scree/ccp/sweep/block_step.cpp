@@ -16,7 +16,7 @@ using Rows = BlockVector;
 /// Rows whose own stiffness, beside that of the rows they depend on, is less than this share of it are left out.
 constexpr double kDependent = 1e-12;
 /// Steps of a cone, and the share of the first change (squared) at which the others are not worth taking.
-constexpr int kConeSteps = 8;
+constexpr int kConeSteps = 4;
 constexpr double kSmallChange = 1e-6;
 
 /// A of block k without compliance, as BlockSteps::bind() describes it.

@@ -1,27 +1,36 @@
-// StallWatch: when an iteration has come as far as it will.
+// StallWatch: when an iteration has come as far as rounding lets it.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 
 namespace scree {
 
-/// A residual falls by fits and starts, but one that converges finds new least values again and again. When the second half
-/// of all iterations, and no less than kLeast, brought none, rounding is what is left (or the problem has no solution).
+/// A small residual may stay where it is for thousands of iterations and fall again: where N is singular, impulses travel
+/// far along directions that change nothing before they meet the end of a cone. Only when it is near rounding as well,
+/// beside the largest velocity of r, and the second half of all iterations brought no new least value, nothing will come.
 class StallWatch {
  public:
-  static constexpr int kLeast = 1000;
+  static constexpr int kLeast = 1000;            ///< iterations without a new least value
+  static constexpr double kNearRounding = 1e-9;  ///< share of the largest velocity; mass ratios multiply rounding
 
-  /// Takes the residual after so many iterations; true when it does not fall any more.
+  explicit StallWatch(std::span<const double> r) {
+    for (const double velocity : r) small_ = std::max(small_, kNearRounding * std::abs(velocity));
+  }
+
+  /// Takes the residual after so many iterations; true when it will not fall any more.
   bool stalled(int iteration, double residual) {
     if (residual < least_) {
       least_ = residual;
       found_ = iteration;
     }
-    return iteration - found_ >= std::max(kLeast, iteration / 2);
+    return least_ <= small_ && iteration - found_ >= std::max(kLeast, iteration / 2);
   }
 
  private:
+  double small_ = 0.0;
   double least_ = std::numeric_limits<double>::infinity();
   int found_ = 0;
 };
