@@ -79,7 +79,8 @@ void iterations(benchmark::State& state, const std::string& plugin, const std::s
   using benchmark::Counter;
   state.counters["ns_per_contact_iteration"] =
       Counter{each * 1e-9, Counter::kIsIterationInvariantRate | Counter::kInvert};
-  state.counters["floor_ns"] = floor_bytes(problem) / static_cast<double>(problem.contacts.size()) / copy_bandwidth() * 1e9;
+  state.counters["floor_ns"] =
+      floor_bytes(problem) / static_cast<double>(problem.contacts.size()) / copy_bandwidth() * 1e9;
   state.counters["residual"] = summary.residual;
   state.counters["contacts"] = static_cast<double>(problem.contacts.size());
 }

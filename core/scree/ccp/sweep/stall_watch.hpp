@@ -14,7 +14,7 @@ namespace scree {
 class StallWatch {
  public:
   static constexpr int kLeast = 1000;            ///< iterations without a new least value
-  static constexpr double kNearRounding = 1e-9;  ///< share of the largest velocity; mass ratios multiply rounding
+  static constexpr double kNearRounding = 1e-9;  ///< share of the largest velocity; mass ratios multiply rounding [1]
 
   explicit StallWatch(std::span<const double> r) {
     for (const double velocity : r) small_ = std::max(small_, kNearRounding * std::abs(velocity));
