@@ -3,26 +3,30 @@
 // O'Donoghue & Candes 2015).
 //
 // Glossary: x, the iterate; y = x + beta (x - x_old), the point where the
-// gradient is taken; D = diag(d_n, d_t, d_t) per contact, from the diagonal of
-// N_ii: the metric; t, the step; P, the projection on the cones in the metric;
-// p = D_J x, the sums of impulses of each body (D_J: the Jacobian).
+// gradient is taken; D, a diagonal metric made of the diagonal of N; t, the step;
+// P, the projection on the cones in the metric; p = D_J x, the sums of impulses
+// of each body (D_J: the Jacobian).
 //
 //     x_new = P(y - t D^-1 (N y + r))
 //
 // N y is never computed from y: body sums are linear, so p(y) = p(x) + beta
-// (p(x) - p(x_old)). Hence an iteration is one pass over the contacts, which
-// reads velocities of y, makes x_new and adds it up for the bodies, and two cheap
-// passes over the bodies. The quantities of the step test and of the restart
+// (p(x) - p(x_old)). Hence an iteration is one pass over the units, which
+// reads velocities of y, makes x_new and adds it up for the bodies, and a cheap
+// pass over the bodies. With an explicit matrix N y is combined from N x and N
+// x_old in the same way. The quantities of the step test and of the restart
 // fall out of the same passes:
 //
 //     (x_new - y)^T N (x_new - y) <= 1/t ||x_new - y||_D^2     or t shrinks
 //     (y - x_new)^T D (x_new - x) > 0                          or momentum is kept
+//
+// x_new is written over x_old. A step that has to shrink therefore starts again
+// from x, without momentum.
 #pragma once
 
 #include <vector>
 
-#include "lanes_pass.hpp"
-#include "scree/ccp/delassus.hpp"
+#include "contact_step.hpp"
+#include "scree/ccp/packed/packed_problem.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 
@@ -48,55 +52,40 @@ class Apgd final : public CcpSolver {
   void release_workspace() override;
 
  private:
-  /// Sums over a pass of the contacts.
-  struct Sums {
-    double distance = 0.0;   ///< ||x_new - y||_D^2 [J]
-    double uphill = 0.0;     ///< (y - x_new)^T D (x_new - x) [J]
-    double linear = 0.0;     ///< r^T x_new [J]
-    double curvature = 0.0;  ///< (x_new - y)^T N (x_new - y) [J]
-    double quadratic = 0.0;  ///< x_new^T N x_new [J]
-    Sums& operator+=(const Sums& o);
-  };
-  /// M^-1 of a body: columns of its inverse inertia [1/(kg m2)]; lane 3 of the first: inverse mass [1/kg].
-  struct InverseMass {
-    Lanes column[3];
-    [[nodiscard]] apgd::Motion times(const apgd::Motion& p) const;
-  };
+  using Sums = apgd::Sums;
 
   void prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
-  void prepare_group(std::size_t run_first, std::size_t run_last, std::size_t at, double mean,
-                     std::span<const double> gamma);
   void start_objective();
-  void spread_velocities(double beta);
   template <bool compliant>
-  apgd::LaneSums contact_range(std::size_t first, std::size_t last, double beta);
-  Sums contact_pass(double beta);
-  Sums body_pass(double beta, double beta_next);
-  bool descend(double beta, double beta_next, const SolveContext& context, SolveSummary& summary);
+  Sums contact_range(const packed::Run& run);
+  Sums block_range(const packed::Run& run);
+  void block_gradient(std::size_t block, std::span<const double> y, std::span<double> u) const;
+  Sums unit_pass();
+  Sums body_pass(double beta_next);
+  Sums matrix_pass();
+  void spread_velocities(double beta);
+  void move_to(double beta);
+  bool iterate();
   void look(SolveSummary& summary, double start);
   double residual();
-  double residual_range(std::size_t first, std::size_t last) const;
-  /// Runs body(first contact, last contact, first group) for each run of contacts.
-  template <class Body>
-  void for_runs(const Body& body) const;
-  void unpack(std::span<double> gamma) const;
+  double residual_of(const packed::Run& run) const;
+  SolveStatus descend(const SolveContext& context, SolveSummary& summary);
 
   ApgdOptions options_;
   DelassusOperator delassus_;
-  std::vector<apgd::Group> groups_;
-  std::vector<Lanes3> compliance_;          ///< per group; empty without compliance
-  std::vector<Lanes> scale_;                ///< 3 / trace(N_ii) [kg]; 0: no impulse changes anything
-  std::vector<Lanes3> x_, x_old_, x_best_;  ///< impulses [N s], as groups_
-  std::vector<Lanes3> x_new_;
-  std::vector<InverseMass> inverse_mass_;
-  std::vector<apgd::Motion> p_, p_old_, p_new_;        ///< sums per body [N s]
-  std::vector<apgd::Motion> slot_sums_, slot_motion_;  ///< per slot: sums of x_new, velocities of y
+  packed::PackedProblem packed_;
+  packed::Impulses x_, x_old_, x_best_;            ///< [N s]
+  std::vector<packed::Twists> p_, p_old_;          ///< sums of four bodies each [N s]
+  std::vector<double> product_, product_old_;      ///< N x, N x_old of problems with a matrix [m/s]
+  std::vector<double> y_, product_y_;              ///< y and N y of such problems
   std::vector<Sums> partial_;
   std::vector<double> residual_partial_;
-  double spread_ = -1.0;    ///< beta of the y whose velocities are in slot_motion_; below zero: of none
-  double step_ = 1.0;       ///< t [1]
-  double objective_ = 0.0;  ///< of x_ [J]
-  double uphill_ = 0.0;     ///< of the last accepted step [J]
+  double theta_ = 1.0, beta_ = 0.0;  ///< of the next step [1]
+  double spread_ = -1.0;             ///< beta of the y whose velocities the slots have; below zero: of none
+  double step_ = 1.0;                ///< t [1]
+  double objective_ = 0.0;           ///< of x_ [J]
+  double gain_residual_ = 0.0;       ///< the least residual, at the last look that found it much less than before [m/s]
+  int last_gain_ = 0;                ///< the iteration of that look
 };
 
 }  // namespace scree
