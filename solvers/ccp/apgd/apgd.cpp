@@ -57,6 +57,7 @@ void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::
   theta_ = 1.0, beta_ = 0.0;
   step_ = 1.0;
   last_gain_ = 0;
+  gain_residual_ = kInfinity;
   start_objective();
 }
 
@@ -69,8 +70,11 @@ bool Apgd::iterate() {
   sums += packed_.has_matrix() ? matrix_pass() : body_pass(beta_next);
   // Differences made of the last bits of the sums tell nothing: no reason to shrink the step.
   const double rounding = 1e-28 * std::abs(sums.quadratic);
-  if (step_ * sums.curvature > sums.distance + rounding) {
-    step_ = std::min(0.9 * step_, 0.98 * sums.distance / sums.curvature);
+  const double length = step_ * sums.curvature;
+  const bool overshot = length > sums.distance + rounding;
+  if (overshot) step_ = std::min(0.9 * step_, 0.98 * sums.distance / sums.curvature);
+  // Up to twice the distance a step still goes down from y. It is kept, and the next one is shorter.
+  if (length > 2.0 * sums.distance + rounding) {
     theta_ = 1.0, beta_ = 0.0;
     spread_ = -1.0;
     return step_ > 0.0;
@@ -83,7 +87,7 @@ bool Apgd::iterate() {
   spread_ = packed_.has_matrix() ? -1.0 : beta_next;
   theta_ = theta_next, beta_ = beta_next;
   if (options_.restart && sums.uphill > 0.0) theta_ = 1.0, beta_ = 0.0;
-  step_ *= options_.growth;
+  if (!overshot) step_ *= options_.growth;
   return moved && std::isfinite(sums.distance);
 }
 

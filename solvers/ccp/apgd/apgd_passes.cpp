@@ -9,6 +9,9 @@ namespace scree {
 
 namespace {
 
+/// Groups that slots are asked for in advance.
+constexpr std::size_t kAhead = 8;
+
 packed::Twists beyond(const packed::Twists& p, const packed::Twists& old, double beta) {
   return p + packed::all(beta) * (p - old);
 }
@@ -73,6 +76,7 @@ Apgd::Sums Apgd::contact_range(const packed::Run& run) {
   packed::Slot* const slots = packed_.slots();
   const double beta = beta_, step = step_;
   for (std::size_t at = run.first_group; at < run.last_group; ++at) {
+    if (at + kAhead < run.last_group) packed::prefetch(packed_.group(at + kAhead), slots);
     x_old_.contacts[at] =
         apgd::step<compliant>(packed_.group(at), compliant ? &packed_.compliance(at) : nullptr, x_.contacts[at],
                               x_old_.contacts[at], beta, step, slots, sums);
@@ -171,6 +175,7 @@ double Apgd::residual_of(const packed::Run& run) const {
   const CcpProblem& problem = packed_.problem();
   double worst = 0.0;
   for (std::size_t at = run.first_group; at < run.last_group; ++at) {
+    if (at + kAhead < run.last_group) packed::prefetch(packed_.group(at + kAhead), packed_.slots());
     const Lanes3& x = x_.contacts[at];
     Lanes3 u = packed::contact_velocity(packed_.group(at), packed_.slots());
     if (packed_.compliant()) u = u + packed::comply(packed_.group(at), packed_.compliance(at), x);

@@ -54,6 +54,17 @@ inline Lanes3 contact_velocity(const Group& group, const Slot* slots) {
   return (b.linear + cross(b.angular, group.arm_b)) - (a.linear + cross(a.angular, group.arm_a)) + group.r;
 }
 
+/// Asks for the slots of a group that a pass comes to soon: there are too many to wait for.
+inline void prefetch(const Group& group, const Slot* slots) {
+  for (const Indices& index : {group.a, group.b}) {
+    for (const std::uint32_t s : index) {
+      const char* const bytes = reinterpret_cast<const char*>(&slots[s]);
+      __builtin_prefetch(bytes, 1);
+      __builtin_prefetch(bytes + 64, 1);
+    }
+  }
+}
+
 /// Puts the impulses p on the slots.
 inline void add_impulse(const Group& group, const Lanes3& p, Slot* slots) {
   const Lanes3 q{-p.x, -p.y, -p.z};
