@@ -117,7 +117,8 @@ void print_floor(std::string_view only) {
   fmt::print("{} contacts, {} bodies; floor {:.0f} bytes a contact and iteration\n\n", problem.contacts.size(),
              problem.bodies(), floor_bytes(problem) / contacts);
   fmt::print("{:<16}{:>12}{:>14}{:>10}{:>10}\n", "", "copy GB/s", "ns/contact", "floor", "ratio");
-  static constexpr Variant kVariants[] = {{"apgd", "apgd", ""}, {"spg", "spg", ""}, {"pgs", "pgs", ""}, {"asgs", "asgs", ""}};
+  static constexpr Variant kVariants[] = {
+      {"apgd", "apgd", ""}, {"spg", "spg", ""}, {"pgs", "pgs", ""}, {"asgs", "asgs", ""}};
   for (const Variant& variant : kVariants) {
     if (!only.empty() && only != variant.plugin) continue;
     const std::unique_ptr<CcpSolver> solver = make_solver(variant);
@@ -128,7 +129,8 @@ void print_floor(std::string_view only) {
       ratio.push_back(taken.back() * bandwidth.back() / floor_bytes(problem));
     }
     fmt::print("{:<16}{:>12.1f}{:>14.1f}{:>10.1f}{:>10.2f}\n", variant.name, median(bandwidth) * 1e-9,
-               median(taken) * 1e9 / contacts, floor_bytes(problem) / median(bandwidth) * 1e9 / contacts, median(ratio));
+               median(taken) * 1e9 / contacts, floor_bytes(problem) / median(bandwidth) * 1e9 / contacts,
+               median(ratio));
   }
 }
 
@@ -180,9 +182,13 @@ void print_memory(std::size_t contacts) {
   fmt::print("{} contacts, {} bodies; the problem itself and its impulses: {:.0f} bytes a contact\n",
              problem.contacts.size(), problem.bodies(),
              sizeof(CcpContact) + 48.0 + 80.0 * static_cast<double>(problem.bodies()) / m);
-  static constexpr Variant kVariants[] = {
-      {"apgd", "apgd", ""},       {"spg", "spg", ""},   {"pgs", "pgs", ""}, {"pgs coloured", "pgs", "order = \"coloured\""},
-      {"jacobi", "jacobi", ""},   {"asgs", "asgs", ""}, {"asgs coloured", "asgs", "order = \"coloured\""}};
+  static constexpr Variant kVariants[] = {{"apgd", "apgd", ""},
+                                          {"spg", "spg", ""},
+                                          {"pgs", "pgs", ""},
+                                          {"pgs coloured", "pgs", "order = \"coloured\""},
+                                          {"jacobi", "jacobi", ""},
+                                          {"asgs", "asgs", ""},
+                                          {"asgs coloured", "asgs", "order = \"coloured\""}};
   const Executor two{2};
   SolveContext context;
   context.tolerance = 0.0;

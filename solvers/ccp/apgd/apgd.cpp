@@ -53,12 +53,12 @@ void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::
   y_ = product_;
   product_y_ = product_;
   partial_.resize(std::max(packed_.runs(), packed_.body_chunks()));
-  residual_partial_.resize(packed_.runs());
+  looks_.resize(packed_.runs());
   theta_ = 1.0, beta_ = 0.0;
   step_ = 1.0;
   last_gain_ = 0;
   gain_residual_ = kInfinity;
-  start_objective();
+  start();
 }
 
 // One try of a step from y, which is a pass over the units. False when nothing can move any more.
@@ -80,13 +80,13 @@ bool Apgd::iterate() {
     return step_ > 0.0;
   }
   const bool moved = sums.distance > 0.0 || beta_ != 0.0;
-  objective_ = 0.5 * sums.quadratic + sums.linear;
+  quadratic_ = sums.quadratic;
   x_.swap(x_old_);
   p_.swap(p_old_);
   product_.swap(product_old_);
   spread_ = packed_.has_matrix() ? -1.0 : beta_next;
   theta_ = theta_next, beta_ = beta_next;
-  if (options_.restart && sums.uphill > 0.0) theta_ = 1.0, beta_ = 0.0;
+  if (options_.restart && sums.distance + sums.onward < 0.0) theta_ = 1.0, beta_ = 0.0;
   if (!overshot) step_ *= options_.growth;
   return moved && std::isfinite(sums.distance);
 }
@@ -94,7 +94,7 @@ bool Apgd::iterate() {
 // The residual of x_; keeps it when it is the best so far and not above the start.
 void Apgd::look(SolveSummary& summary, double start) {
   const double now = residual();
-  if (!(now < summary.residual) || objective_ > start) return;
+  if (!(now < summary.residual) || objective() > start) return;
   if (now < kGain * gain_residual_) {
     gain_residual_ = now;
     last_gain_ = summary.iterations;
@@ -105,13 +105,12 @@ void Apgd::look(SolveSummary& summary, double start) {
 }
 
 SolveStatus Apgd::descend(const SolveContext& context, SolveSummary& summary) {
-  const double start = objective_ + 1e-14 * std::abs(objective_);  // up to rounding
+  const double guess = objective(), start = guess + 1e-14 * std::abs(guess);  // up to rounding
   int next_look = 1;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
     ++summary.iterations;
     const bool moving = iterate();
-    const bool looking =
-        summary.iterations >= next_look || summary.iterations == context.max_iterations || !moving;
+    const bool looking = summary.iterations >= next_look || summary.iterations == context.max_iterations || !moving;
     if (looking) {
       look(summary, start);
       next_look = summary.iterations < options_.check_interval ? 2 * summary.iterations

@@ -17,7 +17,7 @@
 // fall out of the same passes:
 //
 //     (x_new - y)^T N (x_new - y) <= 1/t ||x_new - y||_D^2     or t shrinks
-//     (y - x_new)^T D (x_new - x) > 0                          or momentum is kept
+//     (x_new - y)^T D (x_new - x) >= 0                         or momentum is dropped
 //
 // x_new is written over x_old. A step that has to shrink therefore starts again
 // from x, without momentum.
@@ -53,9 +53,14 @@ class Apgd final : public CcpSolver {
 
  private:
   using Sums = apgd::Sums;
+  /// What a look finds in a run.
+  struct Look {
+    double residual = 0.0;  ///< [m/s]
+    double linear = 0.0;    ///< r^T x [J]
+  };
 
   void prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
-  void start_objective();
+  void start();
   template <bool compliant>
   Sums contact_range(const packed::Run& run);
   Sums block_range(const packed::Run& run);
@@ -68,22 +73,25 @@ class Apgd final : public CcpSolver {
   bool iterate();
   void look(SolveSummary& summary, double start);
   double residual();
-  double residual_of(const packed::Run& run) const;
+  /// Of x_ [J], once its residual has been computed.
+  [[nodiscard]] double objective() const { return 0.5 * quadratic_ + linear_; }
+  Look look_at(const packed::Run& run) const;
   SolveStatus descend(const SolveContext& context, SolveSummary& summary);
 
   ApgdOptions options_;
   DelassusOperator delassus_;
   packed::PackedProblem packed_;
-  packed::Impulses x_, x_old_, x_best_;            ///< [N s]
-  std::vector<packed::Twists> p_, p_old_;          ///< sums of four bodies each [N s]
-  std::vector<double> product_, product_old_;      ///< N x, N x_old of problems with a matrix [m/s]
-  std::vector<double> y_, product_y_;              ///< y and N y of such problems
+  packed::Impulses x_, x_old_, x_best_;        ///< [N s]
+  std::vector<packed::Twists> p_, p_old_;      ///< sums of four bodies each [N s]
+  std::vector<double> product_, product_old_;  ///< N x, N x_old of problems with a matrix [m/s]
+  std::vector<double> y_, product_y_;          ///< y and N y of such problems
   std::vector<Sums> partial_;
-  std::vector<double> residual_partial_;
+  std::vector<Look> looks_;
   double theta_ = 1.0, beta_ = 0.0;  ///< of the next step [1]
   double spread_ = -1.0;             ///< beta of the y whose velocities the slots have; below zero: of none
   double step_ = 1.0;                ///< t [1]
-  double objective_ = 0.0;           ///< of x_ [J]
+  double quadratic_ = 0.0;           ///< x_^T N x_ [J]
+  double linear_ = 0.0;              ///< r^T x_, as of the last look [J]
   double gain_residual_ = 0.0;       ///< the least residual, at the last look that found it much less than before [m/s]
   int last_gain_ = 0;                ///< the iteration of that look
 };

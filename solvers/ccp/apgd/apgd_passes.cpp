@@ -18,8 +18,8 @@ packed::Twists beyond(const packed::Twists& p, const packed::Twists& old, double
 
 }  // namespace
 
-// Body sums and objective of the guess: those of a pass that ends there.
-void Apgd::start_objective() {
+// Body sums of the guess: those of a pass that ends there.
+void Apgd::start() {
   const CcpProblem& problem = packed_.problem();
   packed_.for_runs([&](const packed::Run& run) {
     apgd::LaneSums lanes;
@@ -27,14 +27,15 @@ void Apgd::start_objective() {
     for (std::size_t at = run.first_group; at < run.last_group; ++at) {
       const Lanes3& x = x_.contacts[at];
       packed::add_impulse(packed_.group(at), x, packed_.slots());
-      lanes.linear += dot(packed_.group(at).r, x);
       if (packed_.compliant()) lanes.quadratic += dot(x, packed::comply(packed_.group(at), packed_.compliance(at), x));
     }
-    for (std::size_t k = run.first_block; k < run.last_block; ++k) {
-      const std::size_t row = problem.blocks[k].first_row, rows = problem.blocks[k].rows;
-      if (!packed_.has_matrix()) packed_.add_impulse(k, std::span{x_.rows}.subspan(row, rows));
-      for (std::size_t i = row; i < row + rows; ++i) sums.linear += problem.r[problem.contact_rows() + i] * x_.rows[i];
-      if (!packed_.has_matrix()) sums.quadratic += packed_.block_compliance(k, std::span{x_.rows}.subspan(row, rows));
+    if (!packed_.has_matrix()) {
+      for (std::size_t k = run.first_block; k < run.last_block; ++k) {
+        const CcpBlock& block = problem.blocks[k];
+        const std::span<const double> x = std::span{x_.rows}.subspan(block.first_row, block.rows);
+        packed_.add_impulse(k, x);
+        sums.quadratic += packed_.block_compliance(k, x);
+      }
     }
     sums += lanes.total();
     partial_[run.index] = sums;
@@ -52,7 +53,7 @@ void Apgd::start_objective() {
     p_old_ = p_;
     spread_ = 0.0;
   }
-  objective_ = 0.5 * sums.quadratic + sums.linear;
+  quadratic_ = sums.quadratic;
 }
 
 // Velocities of the y of that beta: of each body for its slots, or N y.
@@ -77,9 +78,8 @@ Apgd::Sums Apgd::contact_range(const packed::Run& run) {
   const double beta = beta_, step = step_;
   for (std::size_t at = run.first_group; at < run.last_group; ++at) {
     if (at + kAhead < run.last_group) packed::prefetch(packed_.group(at + kAhead), slots);
-    x_old_.contacts[at] =
-        apgd::step<compliant>(packed_.group(at), compliant ? &packed_.compliance(at) : nullptr, x_.contacts[at],
-                              x_old_.contacts[at], beta, step, slots, sums);
+    x_old_.contacts[at] = apgd::step<compliant>(packed_.group(at), compliant ? &packed_.compliance(at) : nullptr,
+                                                x_.contacts[at], x_old_.contacts[at], beta, step, slots, sums);
   }
   return sums.total();
 }
@@ -100,7 +100,6 @@ Apgd::Sums Apgd::block_range(const packed::Run& run) {
     const CcpBlock& b = problem.blocks[block];
     const double* const x = x_.rows.data() + b.first_row;
     double* const x_old = x_old_.rows.data() + b.first_row;
-    const double* const r = problem.r.data() + first_row(problem, b);
     const std::span<const double> mass = packed_.block_masses(block);
     BlockVector y{}, u{}, next{}, d{};
     for (std::size_t k = 0; k < b.rows; ++k) y[k] = x[k] + beta_ * (x[k] - x_old[k]);
@@ -109,10 +108,9 @@ Apgd::Sums Apgd::block_range(const packed::Run& run) {
     packed_.project(block, std::span{next}.first(b.rows));
     for (std::size_t k = 0; k < b.rows; ++k) {
       d[k] = next[k] - y[k];
-      sums.linear += r[k] * next[k];
       if (mass[k] > 0.0) {
         sums.distance += d[k] * d[k] / mass[k];
-        sums.uphill -= d[k] * (next[k] - x[k]) / mass[k];
+        sums.onward += d[k] * (y[k] - x[k]) / mass[k];
       }
       x_old[k] = next[k];
     }
@@ -171,31 +169,42 @@ Apgd::Sums Apgd::matrix_pass() {
   return sums;
 }
 
-double Apgd::residual_of(const packed::Run& run) const {
+// At x_, for the velocities of x_ in the slots.
+Apgd::Look Apgd::look_at(const packed::Run& run) const {
   const CcpProblem& problem = packed_.problem();
-  double worst = 0.0;
+  Look look;
+  Lanes linear{};
   for (std::size_t at = run.first_group; at < run.last_group; ++at) {
     if (at + kAhead < run.last_group) packed::prefetch(packed_.group(at + kAhead), packed_.slots());
     const Lanes3& x = x_.contacts[at];
     Lanes3 u = packed::contact_velocity(packed_.group(at), packed_.slots());
     if (packed_.compliant()) u = u + packed::comply(packed_.group(at), packed_.compliance(at), x);
-    worst = std::max(worst, packed_.group_residual(at, x, u));
+    look.residual = std::max(look.residual, packed_.group_residual(at, x, u));
+    linear += dot(packed_.group(at).r, x);
   }
+  look.linear = packed::total(linear);
   for (std::size_t block = run.first_block; block < run.last_block; ++block) {
-    const std::size_t rows = problem.blocks[block].rows;
-    const std::span<const double> x = std::span{x_.rows}.subspan(problem.blocks[block].first_row, rows);
+    const std::size_t row = problem.blocks[block].first_row, rows = problem.blocks[block].rows;
+    const std::span<const double> x = std::span{x_.rows}.subspan(row, rows);
     BlockVector u{};
     block_gradient(block, x, std::span{u}.first(rows));
-    worst = std::max(worst, packed_.block_residual(block, x, std::span{u}.first(rows)));
+    look.residual = std::max(look.residual, packed_.block_residual(block, x, std::span{u}.first(rows)));
+    for (std::size_t k = 0; k < rows; ++k) look.linear += problem.r[problem.contact_rows() + row + k] * x[k];
   }
-  return worst;
+  return look;
 }
 
-// ccp_residual() of x_.
+// ccp_residual() of x_, and its part of the objective.
 double Apgd::residual() {
   if (spread_ != 0.0) move_to(0.0);
-  packed_.for_runs([&](const packed::Run& run) { residual_partial_[run.index] = residual_of(run); });
-  return *std::max_element(residual_partial_.begin(), residual_partial_.end());
+  packed_.for_runs([&](const packed::Run& run) { looks_[run.index] = look_at(run); });
+  double worst = 0.0;
+  linear_ = 0.0;
+  for (const Look& look : looks_) {
+    worst = std::max(worst, look.residual);
+    linear_ += look.linear;
+  }
+  return worst;
 }
 
 }  // namespace scree

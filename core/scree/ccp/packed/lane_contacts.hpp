@@ -5,6 +5,10 @@
 // contact, in the world as well [m/s]; D = diag(1/m_n, 1/m_t, 1/m_t), the metric of a contact.
 #pragma once
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 #include <limits>
 
 #include "scree/ccp/packed/lane_slots.hpp"
@@ -20,7 +24,7 @@ struct alignas(32) Group {
   Lanes3 r;                     ///< right-hand side, in the world [m/s]
   Lanes friction;               ///< [1]
   Floats m_n, m_t;              ///< inverse of the metric [kg]: any will do, so rounded ones too
-  Indices a, b;                 ///< slots
+  Offsets a, b;                 ///< slots
 };
 
 /// E of four contacts, which needs the tangents: tangent 2 is normal x tangent 1.
@@ -42,10 +46,17 @@ inline double greatest(const Lanes& a) {
   return low > high ? low : high;
 }
 
+inline Lanes widen(const Floats& a) {
+#ifdef __AVX__
+  return _mm256_cvtps_pd(a);  // what is meant below, which compilers do in halves and through memory
+#else
+  return __builtin_convertvector(a, Lanes);
+#endif
+}
+
 inline Metric metric_of(const Group& group) {
   const Floats one{1.0F, 1.0F, 1.0F, 1.0F};
-  return {__builtin_convertvector(group.m_n, Lanes), __builtin_convertvector(group.m_t, Lanes),
-          __builtin_convertvector(one / group.m_n, Lanes), __builtin_convertvector(one / group.m_t, Lanes)};
+  return {widen(group.m_n), widen(group.m_t), widen(one / group.m_n), widen(one / group.m_t)};
 }
 
 /// u, for the velocities of the slots.
@@ -56,11 +67,10 @@ inline Lanes3 contact_velocity(const Group& group, const Slot* slots) {
 
 /// Asks for the slots of a group that a pass comes to soon: there are too many to wait for.
 inline void prefetch(const Group& group, const Slot* slots) {
-  for (const Indices& index : {group.a, group.b}) {
-    for (const std::uint32_t s : index) {
-      const char* const bytes = reinterpret_cast<const char*>(&slots[s]);
-      __builtin_prefetch(bytes, 1);
-      __builtin_prefetch(bytes + 64, 1);
+  for (const Offsets& offsets : {group.a, group.b}) {
+    for (const std::uint32_t offset : offsets) {
+      __builtin_prefetch(bytes_of(slots, offset), 1);
+      __builtin_prefetch(bytes_of(slots, offset) + 64, 1);
     }
   }
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -15,13 +16,21 @@
 namespace scree::packed {
 
 using Pair = double __attribute__((vector_size(16)));
-using Indices = std::array<std::uint32_t, 4>;
+using Offsets = std::array<std::uint32_t, 4>;  ///< of slots, in bytes: a product less than an index
 
 /// A body as a run of contacts sees it.
 struct alignas(32) Slot {
   Twist sum;       ///< of the impulses that the run puts on it [N s]
   Twist velocity;  ///< [m/s, rad/s]
 };
+
+/// Slots that offsets reach.
+inline constexpr std::size_t kMostSlots = (std::size_t{1} << 32) / sizeof(Slot);
+inline std::uint32_t offset_of(std::uint32_t slot) { return slot * static_cast<std::uint32_t>(sizeof(Slot)); }
+
+inline const char* bytes_of(const Slot* slots, std::uint32_t offset) {
+  return reinterpret_cast<const char*>(slots) + offset;
+}
 
 /// Velocities, or impulses and their moments, side by side.
 struct Twists {
@@ -47,9 +56,9 @@ inline void gather_pair(const std::array<const char*, 4>& twist, std::size_t pai
 }
 
 /// The velocities of four slots.
-inline Twists gather(const Slot* slots, const Indices& index) {
+inline Twists gather(const Slot* slots, const Offsets& offset) {
   std::array<const char*, 4> twist;
-  for (std::size_t k = 0; k < 4; ++k) twist[k] = reinterpret_cast<const char*>(&slots[index[k]].velocity);
+  for (std::size_t k = 0; k < 4; ++k) twist[k] = bytes_of(slots, offset[k]) + offsetof(Slot, velocity);
   Twists out;
   gather_pair(twist, 0, out.linear.x, out.linear.y);
   gather_pair(twist, 1, out.linear.z, out.angular.x);
@@ -87,10 +96,10 @@ inline std::array<Split, 4> rows_of(const Twists& t) {
 }
 
 /// Adds to the sums of four slots, which may be the same.
-inline void add(const Twists& impulse, const Indices& index, Slot* slots) {
+inline void add(const Twists& impulse, const Offsets& offset, Slot* slots) {
   const std::array<Split, 4> rows = rows_of(impulse);
   for (std::size_t k = 0; k < 4; ++k) {
-    Twist& sum = slots[index[k]].sum;
+    Twist& sum = reinterpret_cast<Slot*>(reinterpret_cast<char*>(slots) + offset[k])->sum;
     const Split old = Split::load(sum);
     Split{old.head + rows[k].head, old.tail + rows[k].tail}.store(sum);
   }
@@ -99,10 +108,10 @@ inline void add(const Twists& impulse, const Indices& index, Slot* slots) {
 /// M^-1 p.
 inline Twists times(const BodyGroup& inverse, const Twists& p) {
   const Lanes3& w = p.angular;
-  return {inverse.mass * p.linear,
-          {inverse.xx * w.x + inverse.xy * w.y + inverse.xz * w.z,
-           inverse.xy * w.x + inverse.yy * w.y + inverse.yz * w.z,
-           inverse.xz * w.x + inverse.yz * w.y + inverse.zz * w.z}};
+  return {
+      inverse.mass * p.linear,
+      {inverse.xx * w.x + inverse.xy * w.y + inverse.xz * w.z, inverse.xy * w.x + inverse.yy * w.y + inverse.yz * w.z,
+       inverse.xz * w.x + inverse.yz * w.y + inverse.zz * w.z}};
 }
 
 inline Lanes dot(const Twists& a, const Twists& b) { return dot(a.linear, b.linear) + dot(a.angular, b.angular); }
@@ -125,8 +134,9 @@ inline Twists take_sums(Slot* slots, const std::uint32_t* first) {
   transpose(sum[0].head, sum[1].head, sum[2].head, sum[3].head);
   const Lanes even = __builtin_shufflevector(sum[0].tail, sum[2].tail, 0, 1, 2, 3);
   const Lanes odd = __builtin_shufflevector(sum[1].tail, sum[3].tail, 0, 1, 2, 3);
-  return {{sum[0].head, sum[1].head, sum[2].head},
-          {sum[3].head, __builtin_shufflevector(even, odd, 0, 4, 2, 6), __builtin_shufflevector(even, odd, 1, 5, 3, 7)}};
+  return {
+      {sum[0].head, sum[1].head, sum[2].head},
+      {sum[3].head, __builtin_shufflevector(even, odd, 0, 4, 2, 6), __builtin_shufflevector(even, odd, 1, 5, 3, 7)}};
 }
 
 /// Gives the velocities of four bodies to their slots.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scree/base/release.hpp"
+#include "scree/base/require.hpp"
 #include "scree/ccp/block_rows.hpp"
 #include "scree/ccp/cone3.hpp"
 
@@ -43,6 +44,8 @@ std::size_t contact_at(std::size_t first, std::size_t last, std::size_t at, std:
 void PackedProblem::build(const DelassusOperator& delassus, Scaling scaling) {
   delassus_ = &delassus;
   const CcpProblem& p = problem();
+  SCREE_REQUIRE(delassus.partition().slot_count() <= kMostSlots,
+                "PackedProblem: more bodies than 32-bit offsets reach");
   const std::size_t groups = (p.contacts.size() + 3) / 4;
   groups_.resize(groups);
   scale_.resize(groups);
@@ -87,8 +90,8 @@ void PackedProblem::build_run(std::size_t first, std::size_t last, Scaling scali
   for (std::size_t at = first / 4; at < first / 4 + (last - first + 3) / 4; ++at) {
     groups_[at] = Group{};
     groups_[at].m_n = groups_[at].m_t = Floats{1.0F, 1.0F, 1.0F, 1.0F};
-    groups_[at].a.fill(sink);
-    groups_[at].b.fill(sink);
+    groups_[at].a.fill(offset_of(sink));
+    groups_[at].b.fill(offset_of(sink));
     scale_[at] = Lanes{};
     for (std::size_t lane = 0; lane < 4; ++lane) {
       const std::size_t contact = contact_at(first, last, at, lane);
@@ -118,8 +121,8 @@ void PackedProblem::put_contact(std::size_t i, std::size_t at, std::size_t lane,
   group.friction[lane] = c.friction;
   group.m_n[lane] = stored(1.0 / d_n);
   group.m_t[lane] = stored(1.0 / d_t);
-  group.a[lane] = delassus_->partition().slots()[i].a;
-  group.b[lane] = delassus_->partition().slots()[i].b;
+  group.a[lane] = offset_of(delassus_->partition().slots()[i].a);
+  group.b[lane] = offset_of(delassus_->partition().slots()[i].b);
   scale_[at][lane] = 3.0 / trace;
   if (compliance_.empty()) return;
   put(compliance_[at].tangent1, lane, c.tangent1);

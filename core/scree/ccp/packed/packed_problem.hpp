@@ -122,7 +122,7 @@ class PackedProblem {
   std::vector<BodyGroup> bodies_;
   std::vector<std::uint32_t> first_slot_;  ///< as in ContactPartition, for whole groups of bodies
   std::vector<Slot> slots_;
-  std::vector<double> row_mass_;          ///< of blocks [kg]
+  std::vector<double> row_mass_;  ///< of blocks [kg]
   std::vector<BlockMetric> block_metric_;
 };
 
