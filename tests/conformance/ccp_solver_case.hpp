@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "scree/ccp/judge.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 #include "scree/parallel/executor.hpp"
+#include "support/ccp_matrix_problem.hpp"
 #include "support/ccp_problems.hpp"
 
 namespace scree::test {
@@ -42,6 +44,20 @@ inline Solved solve(CcpSolver& solver, const CcpProblem& problem, double toleran
   context.executor = executor;
   out.summary = solver.solve(problem, context, out.gamma);
   return out;
+}
+
+/// Whether the solver looks at blocks at all: one joint on one body, in both forms. One that does not throws
+/// std::logic_error.
+inline bool takes_blocks(CcpSolver& solver) {
+  const TestingProblem joint = one_block(1.0, {}, {1.0, -2.0});
+  for (const TestingProblem& t : {joint, with_matrix(joint)}) {
+    try {
+      if (!(ccp_residual(t.view(), solve(solver, t.view(), 1e-9, 1000).gamma) < 0.1)) return false;
+    } catch (const std::logic_error&) {
+      return false;
+    }
+  }
+  return true;
 }
 
 inline double objective_of(const CcpProblem& problem, std::span<const double> gamma) {

@@ -20,7 +20,7 @@ struct PlantedKind {
   std::size_t bodies = 6;
   std::size_t immovable = 1;
   std::size_t contacts = 6;
-  std::size_t blocks = 6;  ///< kinds and rows at random
+  std::size_t blocks = 6;  ///< kinds, rows and Jacobians at random
   bool compliant = false;
   double mass_decades = 1.0;      ///< masses between 1 and 10^this
   double friction_decades = 0.0;  ///< coefficients of up to 10^this
@@ -90,8 +90,12 @@ class Planter {
     if (std::max(block.a, block.b) < what_.immovable) return;
     block.friction = coefficient(), block.spinning = coefficient(), block.rolling = coefficient();
     const std::size_t rows = block.kind == CcpKind::cone ? kConeRows[random_() % 5] : 1 + random_() % 6;
-    std::vector<CcpRow> jacobian(rows);
-    for (CcpRow& row : jacobian) row = {twist(), twist()};
+    // Half of them as mechanics has them, half as nobody has.
+    std::vector<CcpRow> jacobian = rows_at_a_point(rows, block.kind == CcpKind::cone, direction(), 0.5 * direction(),
+                                                   0.5 * direction(), 0.1 + uniform());
+    if (chance(0.5)) {
+      for (CcpRow& row : jacobian) row = {twist(), twist()};
+    }
     if (!out_.problem.blocks.empty() && chance(what_.repeats)) {
       const CcpBlock& before = out_.problem.blocks.back();
       block.a = before.a, block.b = before.b;

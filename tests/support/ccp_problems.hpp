@@ -1,6 +1,7 @@
 // Cone complementarity problems for tests: random feasible ones and closed forms.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -67,6 +68,23 @@ inline TestingProblem sphere_on_floor(double mass, double radius, double frictio
   const std::uint32_t sphere = t.add_body(mass, {j, j, j});
   t.add_contact(floor, sphere, {0, 0, 1}, {}, {0, 0, -radius}, friction, velocity);
   return t;
+}
+
+/// The rows of a joint or of a contact of `rows` rows at a point: velocities along the axes of the contact frame, then turning
+/// about them, times `length` [m]. Cones of 5 rows leave out the turning about the normal.
+inline std::vector<CcpRow> rows_at_a_point(std::size_t rows, bool cone, const Vec3& normal, const Vec3& arm_a,
+                                           const Vec3& arm_b, double length) {
+  const ContactFrame frame = contact_frame(normal);
+  const std::array<Vec3, 3> axes{frame.normal, frame.tangent1, cross(frame.normal, frame.tangent1)};
+  std::vector<CcpRow> out;
+  for (std::size_t k = 0; k < std::min<std::size_t>(rows, 3); ++k) {
+    out.push_back({{-axes[k], -cross(arm_a, axes[k])}, {axes[k], cross(arm_b, axes[k])}});
+  }
+  for (std::size_t k = 3; k < rows; ++k) {
+    const Vec3 axis = length * axes[cone && rows == 5 ? k - 2 : k - 3];
+    out.push_back({{{}, -axis}, {{}, axis}});
+  }
+  return out;
 }
 
 /// One body of mass `m` that a block moves along x, y, z and turns about x, y, z with arms of 1 m: N = 1/m. r = `u`.

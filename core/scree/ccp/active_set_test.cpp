@@ -150,9 +150,9 @@ TEST(active_set, blocks_of_every_kind_take_part) {
     test::PlantedProblem planted =
         test::planted_problem({.bodies = 40, .contacts = 30, .blocks = 8, .compliant = seed % 3 == 0, .seed = seed});
     TestingProblem& t = planted.problem;
-    // Contacts that are open in the solution open faster; in the last problems all are.
+    // Most contacts open faster than they did; in the last problems all.
     for (std::size_t i = 0; i < t.contacts.size(); ++i) {
-      if (seed > 10 || planted.gamma[3 * i] == 0.0) t.r[3 * i] += 20.0;
+      if (seed > 10 || i % 5 != 0) t.r[3 * i] += 20.0;
     }
     const CcpProblem p = t.view();
     SlowSolver solver;
