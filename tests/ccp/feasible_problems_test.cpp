@@ -51,7 +51,7 @@ struct Trial {
 };
 
 Trial draw_trial() {
-  const auto below = [](int low, int high) { return *rc::gen::inRange(low, high); };
+  const auto below = [](int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high)); };
   PlantedKind what;
   what.bodies = static_cast<std::size_t>(below(1, 9));
   what.immovable = static_cast<std::size_t>(below(1, 3));

@@ -15,6 +15,7 @@ const StateContent kContent{"contact problem", "ccp_100.h5"};
 
 // Directions of a file of other software may be rounded to single precision.
 constexpr double kDirectionError = 1e-6;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 static_assert(sizeof(Mat3) == 9 * sizeof(double));
 
@@ -63,6 +64,7 @@ void check_bodies(const CcpRecord& record, const Judgement& judgement) {
         std::max({std::abs(j.row0.y - j.row1.x), std::abs(j.row0.z - j.row2.x), std::abs(j.row1.z - j.row2.y)});
     judgement.require(std::min({j.row0.x, j.row1.y, j.row2.z}) >= 0.0, body + " has a negative diagonal");
     judgement.require(skewness <= kDirectionError * trace, body + " is not symmetric");
+    judgement.require(record.inverse_mass[k] > 0.0 || trace == 0.0, body + " is not zero, but its inverse mass is");
   }
 }
 
@@ -108,7 +110,8 @@ void check_blocks(const CcpRecord& record, const Judgement& judgement) {
     judgement.require(k.friction >= 0.0 && k.spinning >= 0.0 && k.rolling >= 0.0 && std::isfinite(k.friction) &&
                           std::isfinite(k.spinning) && std::isfinite(k.rolling),
                       block + " has a coefficient of friction that is negative or not finite");
-    judgement.require(k.kind != CcpKind::box || k.lower <= k.upper, block + " has no number between its bounds");
+    judgement.require(k.kind != CcpKind::box || (k.lower <= k.upper && k.lower < kInfinity && k.upper > -kInfinity),
+                      block + " has no number between its bounds");
   }
   for (std::size_t k = 0; k < record.block_rows.size(); ++k) {
     const CcpRow& j = record.block_rows[k];

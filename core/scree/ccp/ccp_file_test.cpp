@@ -147,6 +147,10 @@ TEST_F(CcpFileTest, refuses_blocks_that_do_not_fit) {
     add_blocks(record);
     record.blocks[0].lower = 1.0;
   });
+  expect_refused("block 0 has no number between its bounds", [](CcpRecord& record) {
+    add_blocks(record);
+    record.blocks[0].lower = record.blocks[0].upper = std::numeric_limits<double>::infinity();
+  });
 }
 
 TEST_F(CcpFileTest, refuses_wrong_sizes) {
@@ -178,6 +182,8 @@ TEST_F(CcpFileTest, refuses_what_no_problem_can_have) {
   expect_refused("\"inverse_mass\" is negative", [](CcpRecord& record) { record.inverse_mass[1] = -1.0; });
   expect_refused("\"compliance\" is negative", [](CcpRecord& record) { record.compliance[4] = -1e-9; });
   expect_refused("not symmetric", [](CcpRecord& record) { record.inverse_inertia[2].row0.y += 1.0; });
+  expect_refused("the inverse inertia of body 0 is not zero, but its inverse mass is",
+                 [](CcpRecord& record) { record.inverse_inertia[0] = Mat3::identity(); });
   expect_refused("negative diagonal", [](CcpRecord& record) { record.inverse_inertia[2].row2.z = -1.0; });
   expect_refused("not perpendicular unit vectors",
                  [](CcpRecord& record) { record.contacts[0].tangent1 = record.contacts[0].normal; });

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "scree/ccp/judge.hpp"
+#include "support/allocation_count.hpp"
 #include "support/ccp_matrix_problem.hpp"
 #include "support/ccp_planted_problems.hpp"
 #include "support/ccp_problems.hpp"
@@ -222,6 +223,27 @@ TEST(delassus, two_threads_give_the_bits_of_one) {
   EXPECT_EQ(serial, parallel);
   EXPECT_EQ(objective, delassus.objective(gamma));
   EXPECT_EQ(residual, ccp_residual(p, gamma, &two));
+}
+
+TEST(delassus, products_ask_for_no_memory_after_bind) {
+  const TestingProblem bodies = planted_problem({.bodies = 300, .contacts = 5000, .blocks = 500}).problem;
+  const TestingProblem explicit_n = with_matrix(planted_problem({.contacts = 5, .blocks = 5}).problem);
+  for (const TestingProblem& t : {bodies, explicit_n}) {
+    const CcpProblem p = t.view();
+    DelassusOperator delassus;
+    delassus.bind(p, nullptr);
+    const std::vector<double> gamma = random_rows(p, 7);
+    std::vector<double> product(p.rows()), partial(2);
+    std::vector<Twist> w(p.bodies());
+    const std::uint64_t before = test::allocation_count();
+    delassus.apply(gamma, product);
+    delassus.body_velocities(gamma, w);
+    delassus.row_velocities(w, gamma, product);
+    EXPECT_NE(delassus.objective(gamma), 0.0);
+    EXPECT_GT(ccp_residual(delassus, gamma, w, partial), 0.0);
+    delassus.bind(p, nullptr);
+    EXPECT_EQ(test::allocation_count(), before);
+  }
 }
 
 // A sphere of mass m on the floor, approaching with speed v: the impulse m v stops it, and residual is then zero.
