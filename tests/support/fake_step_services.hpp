@@ -7,8 +7,10 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
+#include "scree/ccp/block_cone.hpp"
 #include "scree/ccp/cone3.hpp"
 #include "scree/ccp/judge.hpp"
 #include "scree/interfaces/time_stepper.hpp"
@@ -28,6 +30,10 @@ class FakeStepServices final : public StepServices {
     materials_ = Materials{};
     materials_.add({"stuff", 1000.0, values, {}});
     materials_.set_pair(0, 0, values);
+  }
+  /// One more, of the given half of a pair, for bodies whose `material` says so.
+  void add_material(const ContactMaterial& values) {
+    materials_.add({"stuff " + std::to_string(materials_.size()), 1000.0, values, {}});
   }
   [[nodiscard]] BodyState state() {
     return {bodies_.view(), bodies_.position, bodies_.orientation, bodies_.velocity, bodies_.angular_velocity};
@@ -60,13 +66,15 @@ class FakeStepServices final : public StepServices {
     std::vector<double> u(problem.rows());
     SolveSummary summary{SolveStatus::iteration_limit, 0, ccp_residual(problem, gamma)};
     while (summary.residual > tolerance && summary.iterations < 5000) {
-      for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+      for (std::size_t i = 0; i < problem.units(); ++i) {
         delassus.apply(gamma, u);
-        const Vec3 velocity = load_block(u, i) + load_block(problem.r, i);
-        const Mat3 block = diagonal_block(problem, i);
-        const double step = 1.0 / std::max({block.row0.x, block.row1.y, block.row2.z});
-        const Vec3 g = load_block(gamma, i) - step * velocity;
-        store_block(gamma, i, project_cone3(g, problem.contacts[i].friction));
+        for (std::size_t k = 0; k < u.size(); ++k) u[k] += problem.r[k];
+        if (i < problem.contacts.size()) {
+          update_contact(problem, i, u, gamma);
+        } else {
+          // Below twice the inverse of the greatest eigenvalue: each update gains.
+          update_block(problem, i - problem.contacts.size(), 2.0 / delassus.traces()[i], u, gamma);
+        }
       }
       ++summary.iterations;
       summary.residual = ccp_residual(problem, gamma);
@@ -95,6 +103,22 @@ class FakeStepServices final : public StepServices {
     const Vec3 n = normalized(apart);
     const double gap = norm(apart) - view.radius[a] - view.radius[b];
     return {a, b, 0, 0, 0, view.position[a] + (view.radius[a] + 0.5 * gap) * n, n, gap};
+  }
+
+  static void update_contact(const CcpProblem& problem, std::size_t i, std::span<const double> u,
+                             std::span<double> gamma) {
+    const Mat3 block = diagonal_block(problem, i);
+    const double step = 1.0 / std::max({block.row0.x, block.row1.y, block.row2.z});
+    const Vec3 g = load_block(gamma, i) - step * load_block(u, i);
+    store_block(gamma, i, project_cone3(g, problem.contacts[i].friction));
+  }
+  static void update_block(const CcpProblem& problem, std::size_t i, double step, std::span<const double> u,
+                           std::span<double> gamma) {
+    const CcpBlock& block = problem.blocks[i];
+    const std::size_t first = problem.contact_rows() + block.first_row;
+    const std::span<double> g = gamma.subspan(first, block.rows);
+    for (std::size_t k = 0; k < g.size(); ++k) g[k] -= step * u[first + k];
+    project_block(block, g);
   }
 
   TestBodies& bodies_;

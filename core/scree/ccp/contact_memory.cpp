@@ -7,11 +7,13 @@
 
 namespace scree {
 
-void ContactMemory::recall(std::span<const ContactKey> keys, std::span<Vec3> impulse) const {
+void ContactMemory::recall(std::span<const ContactKey> keys, std::span<Vec3> impulse, std::span<Vec3> angular) const {
   std::size_t old = 0;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     while (old < keys_.size() && keys_[old] < keys[i]) ++old;
-    impulse[i] = old < keys_.size() && keys_[old] == keys[i] ? impulse_[old] : Vec3{};
+    const bool known = old < keys_.size() && keys_[old] == keys[i];
+    impulse[i] = known ? impulse_[old] : Vec3{};
+    if (!angular.empty()) angular[i] = known && !angular_.empty() ? angular_[old] : Vec3{};
   }
 }
 
@@ -19,9 +21,17 @@ void ContactMemory::store(std::vector<ContactKey>& keys, std::vector<Vec3>& impu
   SCREE_REQUIRE(keys.size() == impulse.size(), "ContactMemory: keys and impulses differ in number");
   keys_.swap(keys);
   impulse_.swap(impulse);
+  angular_.clear();
 }
 
-void ContactMemory::clear() { release(keys_, impulse_); }
+void ContactMemory::store(std::vector<ContactKey>& keys, std::vector<Vec3>& impulse, std::vector<Vec3>& angular) {
+  SCREE_REQUIRE(angular.empty() || angular.size() == keys.size(),
+                "ContactMemory: keys and angular impulses differ in number");
+  store(keys, impulse);
+  angular_.swap(angular);
+}
+
+void ContactMemory::clear() { release(keys_, impulse_, angular_); }
 
 void ContactMemory::save(StateWriter& out) const {
   std::vector<std::uint64_t> packed;
@@ -31,12 +41,15 @@ void ContactMemory::save(StateWriter& out) const {
   }
   out.write("contact_keys", std::span<const std::uint64_t>{packed});
   out.write("contact_impulses", std::span<const Vec3>{impulse_});
+  if (!angular_.empty()) out.write("contact_angular_impulses", std::span<const Vec3>{angular_});
 }
 
 void ContactMemory::load(const StateReader& in) {
   const std::vector<std::uint64_t> packed = in.integers("contact_keys");
   impulse_ = in.vectors("contact_impulses");
-  if (packed.size() != 5 * impulse_.size()) {
+  angular_.clear();
+  if (in.has("contact_angular_impulses")) angular_ = in.vectors("contact_angular_impulses");
+  if (packed.size() != 5 * impulse_.size() || (!angular_.empty() && angular_.size() != impulse_.size())) {
     throw Error(ErrorKind::io,
                 "The checkpoint's contact keys and impulses differ in number; it cannot be resumed from");
   }

@@ -3,7 +3,8 @@
 // Contacts are known by the ids of their bodies, their primitives and their
 // feature. Old and new keys are sorted, so that one walk through both finds all
 // pairs. Impulses are kept in the world: a contact's frame turns with its
-// normal.
+// normal. Contacts that resist rolling carry an angular impulse too; where none
+// does, none is stored.
 #pragma once
 
 #include <compare>
@@ -40,11 +41,13 @@ struct ContactKey {
 class ContactMemory {
  public:
   /// The impulse last stored for each of `keys` (sorted) [N s], world; zero for
-  /// a contact that was not there.
-  void recall(std::span<const ContactKey> keys, std::span<Vec3> impulse) const;
+  /// a contact that was not there. `angular` [N m s], world: the same; may be empty.
+  void recall(std::span<const ContactKey> keys, std::span<Vec3> impulse, std::span<Vec3> angular = {}) const;
   /// Replaces everything by these: `keys` sorted, impulses on b [N s], world. Takes the buffers, of equal length, and leaves
   /// its own, to be filled again.
   void store(std::vector<ContactKey>& keys, std::vector<Vec3>& impulse);
+  /// As above with angular impulses [N m s]; none where `angular` is empty.
+  void store(std::vector<ContactKey>& keys, std::vector<Vec3>& impulse, std::vector<Vec3>& angular);
   /// Forgets everything and frees the memory.
   void clear();
   [[nodiscard]] std::size_t size() const { return keys_.size(); }
@@ -55,6 +58,7 @@ class ContactMemory {
  private:
   std::vector<ContactKey> keys_;
   std::vector<Vec3> impulse_;
+  std::vector<Vec3> angular_;  ///< empty, or one per key
 };
 
 }  // namespace scree

@@ -28,7 +28,7 @@ struct Contact {
 /// Contacts of a batch of pairs, appended by a narrow phase.
 using ContactBuffer = std::vector<Contact>;
 
-/// The contacts of the last step, spans of equal length.
+/// The contacts of the last step, spans of equal length (or empty where it says so).
 struct ContactView {
   std::span<const Contact> contact;
   std::span<const Vec3> impulse;          ///< on b, in the contact frame: normal,
@@ -36,6 +36,8 @@ struct ContactView {
   std::span<const Vec3> velocity_before;  ///< of b's surface relative to a's, contact frame,
                                           ///< before the solve [m/s]
   std::span<const Vec3> velocity_after;   ///< the same after the solve [m/s]
+  std::span<const Vec3> angular_impulse = {};  ///< what resists rolling: on b, about the point, in the contact frame:
+                                               ///< spin, rolling 1, rolling 2 [N m s]; empty where nothing does
 
   [[nodiscard]] std::size_t size() const { return contact.size(); }
 };

@@ -46,6 +46,24 @@ class LayoutDigest {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
+/// The structs of a contact problem.
+constexpr void add_contact_problem(LayoutDigest& digest) {
+  digest.add<CcpContact>({offsetof(CcpContact, normal), offsetof(CcpContact, tangent1), offsetof(CcpContact, arm_a),
+                          offsetof(CcpContact, arm_b), offsetof(CcpContact, friction), offsetof(CcpContact, a),
+                          offsetof(CcpContact, b)});
+  digest.add<CcpProblem>({offsetof(CcpProblem, inverse_mass), offsetof(CcpProblem, inverse_inertia),
+                          offsetof(CcpProblem, contacts), offsetof(CcpProblem, r), offsetof(CcpProblem, compliance),
+                          offsetof(CcpProblem, blocks), offsetof(CcpProblem, block_rows),
+                          offsetof(CcpProblem, matrix)});
+  digest.add<CcpBlock>({offsetof(CcpBlock, kind), offsetof(CcpBlock, rows), offsetof(CcpBlock, first_row),
+                        offsetof(CcpBlock, a), offsetof(CcpBlock, b), offsetof(CcpBlock, friction),
+                        offsetof(CcpBlock, spinning), offsetof(CcpBlock, rolling), offsetof(CcpBlock, lower),
+                        offsetof(CcpBlock, upper)});
+  digest.add<CcpRow>({offsetof(CcpRow, a), offsetof(CcpRow, b)});
+  digest.add<CcpMatrix>({offsetof(CcpMatrix, first), offsetof(CcpMatrix, column), offsetof(CcpMatrix, value),
+                         offsetof(CcpMatrix, values)});
+}
+
 /// The digest of the code being compiled.
 constexpr std::uint64_t boundary_layout() {
   LayoutDigest digest;
@@ -61,12 +79,9 @@ constexpr std::uint64_t boundary_layout() {
                        offsetof(Contact, primitive_b), offsetof(Contact, feature), offsetof(Contact, point),
                        offsetof(Contact, normal), offsetof(Contact, gap)});
   digest.add<ContactView>({offsetof(ContactView, contact), offsetof(ContactView, impulse),
-                           offsetof(ContactView, velocity_before), offsetof(ContactView, velocity_after)});
-  digest.add<CcpContact>({offsetof(CcpContact, normal), offsetof(CcpContact, tangent1), offsetof(CcpContact, arm_a),
-                          offsetof(CcpContact, arm_b), offsetof(CcpContact, friction), offsetof(CcpContact, a),
-                          offsetof(CcpContact, b)});
-  digest.add<CcpProblem>({offsetof(CcpProblem, inverse_mass), offsetof(CcpProblem, inverse_inertia),
-                          offsetof(CcpProblem, contacts), offsetof(CcpProblem, r), offsetof(CcpProblem, compliance)});
+                           offsetof(ContactView, velocity_before), offsetof(ContactView, velocity_after),
+                           offsetof(ContactView, angular_impulse)});
+  add_contact_problem(digest);
   digest.add<ColliderView>({offsetof(ColliderView, key), offsetof(ColliderView, body),
                             offsetof(ColliderView, primitive), offsetof(ColliderView, pose),
                             offsetof(ColliderView, box), offsetof(ColliderView, movable)});

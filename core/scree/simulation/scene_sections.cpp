@@ -12,9 +12,15 @@ std::vector<Parameter> contact_parameters() {
               .at_least(0.0)
               .at_most(1.0)
               .by_default(0.0),
-          Parameter::number("rolling_friction", "m", "arm of the rolling torque").at_least(0.0).by_default(0.0),
-          Parameter::number("spinning_friction", "m", "arm of the spinning torque").at_least(0.0).by_default(0.0),
-          Parameter::number("compliance", "m/N", "normal compliance, the inverse of a stiffness; 0 is rigid")
+          Parameter::number("rolling_friction", "m", "arm of the rolling torque: at most this times the normal force")
+              .at_least(0.0)
+              .by_default(0.0),
+          Parameter::number("spinning_friction", "m", "arm of the spinning torque: at most this times the normal force")
+              .at_least(0.0)
+              .by_default(0.0),
+          Parameter::number("compliance", "m/N",
+                            "normal compliance, the inverse of a stiffness; 0 is rigid. In an unlisted pair the two "
+                            "materials' add up, so that two bodies of one material touch with twice its value")
               .at_least(0.0)
               .by_default(0.0),
           Parameter::number("damping", "N s/m", "normal damping of a compliant contact").at_least(0.0).by_default(0.0)};

@@ -46,7 +46,10 @@ class Contacts final : public Observer {
                                                            {"impulse_y", "N s"},
                                                            {"impulse_z", "N s"},
                                                            {"impulse_normal", "N s"},
-                                                           {"slip_speed", "m/s"}});
+                                                           {"slip_speed", "m/s"},
+                                                           {"moment_x", "N m s"},
+                                                           {"moment_y", "N m s"},
+                                                           {"moment_z", "N m s"}});
   }
 
   void observe(const Observation& now, Attributes&) override {
@@ -67,9 +70,12 @@ class Contacts final : public Observer {
     const Vec3& after = now.contacts.velocity_after[c];
     table_->cell(now.time).cell(now.bodies.id[contact.a]).cell(now.bodies.id[contact.b]);
     for (const Vec3& v : {contact.point, contact.normal}) table_->cell(v.x).cell(v.y).cell(v.z);
-    const Vec3 impulse = to_world(contact_frame(contact.normal), local);
+    const ContactFrame frame = contact_frame(contact.normal);
+    const Vec3 impulse = to_world(frame, local);
+    const std::span<const Vec3> angular = now.contacts.angular_impulse;
+    const Vec3 moment = angular.empty() ? Vec3{} : to_world(frame, angular[c]);
     table_->cell(contact.gap).cell(impulse.x).cell(impulse.y).cell(impulse.z).cell(local.x);
-    table_->cell(std::hypot(after.y, after.z));
+    table_->cell(std::hypot(after.y, after.z)).cell(moment.x).cell(moment.y).cell(moment.z);
     table_->end_row();
   }
 

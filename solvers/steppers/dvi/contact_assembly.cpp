@@ -41,13 +41,20 @@ NormalRow normal_row(const ContactMaterial& material, const ContactLimits& limit
   return {b, 0.0};
 }
 
-bool any_compliance(const Materials& materials) {
+template <class Property>
+bool any_pair(const Materials& materials, const Property& has) {
   for (std::uint32_t a = 0; a < materials.size(); ++a) {
     for (std::uint32_t b = a; b < materials.size(); ++b) {
-      if (materials.pair(a, b).compliance > 0.0) return true;
+      if (has(materials.pair(a, b))) return true;
     }
   }
   return false;
+}
+
+bool is_compliant(const ContactMaterial& material) { return material.compliance > 0.0; }
+
+const ContactMaterial& pair_of(const BodyView& bodies, const Materials& materials, const Contact& c) {
+  return materials.pair(bodies.material[c.a], bodies.material[c.b]);
 }
 
 }  // namespace
@@ -56,14 +63,13 @@ void ContactAssembly::build(const FreeMotion& motion, std::span<const Contact> c
                             const ContactLimits& limits, double dt, const Executor& executor) {
   keep(motion.bodies, contacts);
   order_.build(motion.bodies, contacts_);
-  sort_blocks();
+  sort_units(motion.bodies, materials);
   fill_bodies(motion);
   const std::size_t m = contacts_.size();
-  blocks_.resize(m);
-  r_.resize(3 * m);
-  compliance_.assign(any_compliance(materials) ? 3 * m : 0, 0.0);
+  r_.resize(first_row_of_unit(m));
+  compliance_.assign(any_pair(materials, is_compliant) ? r_.size() : 0, 0.0);
   executor.for_chunks(m, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) fill_block(motion, materials, limits, dt, i);
+    for (std::size_t i = first; i < last; ++i) fill_unit(motion, materials, limits, dt, i);
   });
   if (std::all_of(compliance_.begin(), compliance_.end(), [](double e) { return e == 0.0; })) compliance_.clear();
 }
@@ -81,17 +87,27 @@ void ContactAssembly::keep(const BodyView& bodies, std::span<const Contact> cont
 
 void ContactAssembly::release_problem() {
   order_ = {};
-  release(block_of_, cursor_, inverse_mass_, inverse_inertia_, blocks_, r_, compliance_);
+  release(unit_of_, cursor_, inverse_mass_, inverse_inertia_, plain_, rolling_, blocks_, block_rows_, r_, compliance_);
 }
 
-// Counting sort by the smaller number of the two bodies, stable.
-void ContactAssembly::sort_blocks() {
-  const auto lower = [&](const Contact& c) { return std::min(order_.number(c.a), order_.number(c.b)); };
-  cursor_.assign(order_.bodies().size() + 1, 0);
-  for (const Contact& c : contacts_) ++cursor_[lower(c) + 1];
+// Counting sort by the smaller number of the two bodies, stable; contacts that resist rolling after all others.
+void ContactAssembly::sort_units(const BodyView& bodies, const Materials& materials) {
+  const std::size_t n = order_.bodies().size(), m = contacts_.size();
+  const bool some_roll = any_pair(materials, resists_rolling);
+  const auto place = [&](const Contact& c) {
+    const std::size_t lower = std::min(order_.number(c.a), order_.number(c.b));
+    return some_roll && resists_rolling(pair_of(bodies, materials, c)) ? n + lower : lower;
+  };
+  cursor_.assign((some_roll ? 2 * n : n) + 1, 0);
+  for (const Contact& c : contacts_) ++cursor_[place(c) + 1];
   for (std::size_t k = 1; k < cursor_.size(); ++k) cursor_[k] += cursor_[k - 1];
-  block_of_.resize(contacts_.size());
-  for (std::size_t i = 0; i < contacts_.size(); ++i) block_of_[i] = cursor_[lower(contacts_[i])]++;
+  const std::size_t plain = cursor_[n];
+  plain_.resize(plain);
+  rolling_.resize(m - plain);
+  blocks_.resize(m - plain);
+  block_rows_.resize(RollingContact::kRows * (m - plain));
+  unit_of_.resize(m);
+  for (std::size_t i = 0; i < m; ++i) unit_of_[i] = cursor_[place(contacts_[i])]++;
 }
 
 void ContactAssembly::fill_bodies(const FreeMotion& motion) {
@@ -104,27 +120,47 @@ void ContactAssembly::fill_bodies(const FreeMotion& motion) {
   }
 }
 
-void ContactAssembly::fill_block(const FreeMotion& motion, const Materials& materials, const ContactLimits& limits,
-                                 double dt, std::size_t contact) {
+void ContactAssembly::fill_unit(const FreeMotion& motion, const Materials& materials, const ContactLimits& limits,
+                                double dt, std::size_t contact) {
   const BodyView& bodies = motion.bodies;
   const Contact& c = contacts_[contact];
-  const ContactMaterial& material = materials.pair(bodies.material[c.a], bodies.material[c.b]);
-  const std::size_t i = block_of_[contact];
-  CcpContact& block = blocks_[i];
-  block = {c.normal,
-           contact_frame(c.normal).tangent1,
-           c.point - bodies.position[c.a],
-           c.point - bodies.position[c.b],
-           material.friction,
-           order_.number(c.a),
-           order_.number(c.b)};
-  const Vec3 before = relative_velocity(block, {bodies.velocity[c.a], bodies.angular_velocity[c.a]},
+  const ContactMaterial& material = pair_of(bodies, materials, c);
+  const CcpContact geometry = {c.normal,
+                               contact_frame(c.normal).tangent1,
+                               c.point - bodies.position[c.a],
+                               c.point - bodies.position[c.b],
+                               material.friction,
+                               order_.number(c.a),
+                               order_.number(c.b)};
+  const Vec3 before = relative_velocity(geometry, {bodies.velocity[c.a], bodies.angular_velocity[c.a]},
                                         {bodies.velocity[c.b], bodies.angular_velocity[c.b]});
-  const Vec3 free = relative_velocity(block, {motion.velocity[c.a], motion.angular_velocity[c.a]},
+  const Vec3 free = relative_velocity(geometry, {motion.velocity[c.a], motion.angular_velocity[c.a]},
                                       {motion.velocity[c.b], motion.angular_velocity[c.b]});
-  const NormalRow row = normal_row(material, limits, c.gap, before.x, free.x, dt);
-  store_block(r_, i, free + Vec3{row.b, 0.0, 0.0});
-  if (!compliance_.empty()) compliance_[3 * i] = row.compliance;
+  const NormalRow normal = normal_row(material, limits, c.gap, before.x, free.x, dt);
+  const std::size_t unit = unit_of_[contact], row = first_row_of_unit(unit);
+  r_[row] = free.x + normal.b;
+  r_[row + 1] = free.y;
+  r_[row + 2] = free.z;
+  if (!compliance_.empty()) compliance_[row] = normal.compliance;
+  if (unit < plain_.size()) {
+    plain_[unit] = geometry;
+  } else {
+    fill_rolling(motion, material, geometry, contact);
+  }
+}
+
+void ContactAssembly::fill_rolling(const FreeMotion& motion, const ContactMaterial& material,
+                                   const CcpContact& geometry, std::size_t contact) {
+  const Contact& c = contacts_[contact];
+  const std::size_t block = unit_of_[contact] - plain_.size(), first = RollingContact::kRows * block;
+  const RollingContact& rolling = rolling_[block] = {geometry, smaller_radius(motion.bodies, c)};
+  blocks_[block] = rolling.block(material, static_cast<std::uint32_t>(first));
+  rolling.write_rows(std::span{block_rows_}.subspan(first).first<RollingContact::kRows>());
+  const Vec3 turn = rolling.rolling_velocity(motion.angular_velocity[c.a], motion.angular_velocity[c.b]);
+  const std::size_t row = 3 * plain_.size() + first + 3;
+  r_[row] = turn.x;
+  r_[row + 1] = turn.y;
+  r_[row + 2] = turn.z;
 }
 
 }  // namespace scree::dvi

@@ -12,12 +12,18 @@
 //     b_n = min(b_n, e u_n(v0))             an impact: u_n(v0) < -min_bounce_speed
 //                                           and Phi + h u_n(v_f) <= 0
 //     b_n = k / (h k + d) Phi,  E_n = 1 / (h (h k + d))     a compliant contact
+//
+// Contacts that resist rolling or spinning are blocks of six rows
+// (rolling_contact.hpp); b and E of their normal are the same, those of the
+// other rows zero.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "rolling_contact.hpp"
 #include "scree/ccp/problem.hpp"
 #include "scree/ccp/twist.hpp"
 #include "spatial_order.hpp"
@@ -42,41 +48,69 @@ struct FreeMotion {
   std::span<const Vec3> angular_velocity;  ///< v_f [rad/s], world
 };
 
-/// Builds the problem and keeps what is needed to read its answer. Blocks are
-/// in spatial order; contacts stay in the order in which they were found.
+/// Builds the problem and keeps what is needed to read its answer. Its units
+/// (contacts, then blocks of six rows) are in spatial order each; contacts()
+/// stay in the order in which they were found.
 class ContactAssembly {
  public:
   /// Contacts between two bodies that forces do not move are left out. `contacts` outlive what is asked here later.
   void build(const FreeMotion& motion, std::span<const Contact> contacts, const Materials& materials,
              const ContactLimits& limits, double dt, const Executor& executor);
 
-  [[nodiscard]] CcpProblem problem() const { return {inverse_mass_, inverse_inertia_, blocks_, r_, compliance_}; }
+  [[nodiscard]] CcpProblem problem() const {
+    return {.inverse_mass = inverse_mass_,
+            .inverse_inertia = inverse_inertia_,
+            .contacts = plain_,
+            .r = r_,
+            .compliance = compliance_,
+            .blocks = blocks_,
+            .block_rows = block_rows_};
+  }
   /// Frees everything but contacts().
   void release_problem();
   /// Bodies of the scene by number in the problem.
   [[nodiscard]] std::span<const BodyIndex> bodies() const { return order_.bodies(); }
-  /// The contacts in the problem, as found, and the block of each.
+  /// The contacts in the problem, as found.
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
-  [[nodiscard]] std::span<const std::uint32_t> block_of() const { return block_of_; }
+
+  /// Of contact k as found: its frame and arms, its first row, and what makes rows of angular velocities, or null.
+  [[nodiscard]] const CcpContact& geometry(std::size_t k) const {
+    const std::size_t unit = unit_of_[k];
+    return unit < plain_.size() ? plain_[unit] : rolling_[unit - plain_.size()].contact;
+  }
+  [[nodiscard]] std::size_t first_row(std::size_t k) const { return first_row_of_unit(unit_of_[k]); }
+  [[nodiscard]] const RollingContact* rolling(std::size_t k) const {
+    const std::size_t unit = unit_of_[k];
+    return unit < plain_.size() ? nullptr : &rolling_[unit - plain_.size()];
+  }
 
  private:
   void keep(const BodyView& bodies, std::span<const Contact> contacts);
-  void sort_blocks();
+  void sort_units(const BodyView& bodies, const Materials& materials);
   void fill_bodies(const FreeMotion& motion);
-  void fill_block(const FreeMotion& motion, const Materials& materials, const ContactLimits& limits, double dt,
-                  std::size_t contact);
+  void fill_unit(const FreeMotion& motion, const Materials& materials, const ContactLimits& limits, double dt,
+                 std::size_t contact);
+  void fill_rolling(const FreeMotion& motion, const ContactMaterial& material, const CcpContact& geometry,
+                    std::size_t contact);
+  [[nodiscard]] std::size_t first_row_of_unit(std::size_t unit) const {
+    const std::size_t plain = std::min(unit, plain_.size());
+    return 3 * plain + RollingContact::kRows * (unit - plain);
+  }
 
   SpatialOrder order_;
-  std::span<const Contact> contacts_;  ///< those found, or those kept
-  std::vector<Contact> kept_;          ///< empty unless some were left out
-  std::vector<std::uint32_t> block_of_;
+  std::span<const Contact> contacts_;   ///< those found, or those kept
+  std::vector<Contact> kept_;           ///< empty unless some were left out
+  std::vector<std::uint32_t> unit_of_;  ///< per contact
   std::vector<std::uint32_t> cursor_;
 
   std::vector<double> inverse_mass_;
   std::vector<Mat3> inverse_inertia_;
-  std::vector<CcpContact> blocks_;
-  std::vector<double> r_;
-  std::vector<double> compliance_;
+  std::vector<CcpContact> plain_;
+  std::vector<RollingContact> rolling_;
+  std::vector<CcpBlock> blocks_;    ///< one per rolling contact
+  std::vector<CcpRow> block_rows_;  ///< six per rolling contact
+  std::vector<double> r_;           ///< one per row
+  std::vector<double> compliance_;  ///< one per row, or empty
 };
 
 }  // namespace scree::dvi

@@ -1,7 +1,6 @@
 #include "dvi.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "rotation.hpp"
 #include "scree/base/release.hpp"
@@ -46,7 +45,7 @@ std::vector<Parameter> Dvi::parameters() {
 }
 
 StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double time, double dt) {
-  if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_);
+  if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_, angular_impulse_);
   free_motion(services, bodies.view, time, dt);
   const std::span<const Contact> found = services.contacts(bodies.view, velocity_, angular_velocity_, dt);
   assembly_.build({bodies.view, velocity_, angular_velocity_}, found, services.materials(), options_.limits, dt,
@@ -98,25 +97,31 @@ void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
   gamma_.assign(problem.rows(), 0.0);
   if (!options_.warm_start || memory_.size() == 0) return;
   find_keys(bodies);
-  world_impulse_.resize(problem.contacts.size());
-  memory_.recall(keys_, world_impulse_);
+  const std::size_t m = keys_.size();
+  world_impulse_.resize(m);
+  world_angular_impulse_.resize(problem.blocks.empty() ? 0 : m);
+  memory_.recall(keys_, world_impulse_, world_angular_impulse_);
   // A resting contact's impulse goes with the step.
   const double scale = dt / memory_dt_;
-  for (std::size_t k = 0; k < world_impulse_.size(); ++k) {
-    const std::size_t i = assembly_.block_of()[k];
-    store_block(gamma_, i, in_frame(problem.contacts[i], scale * world_impulse_[k]));
+  for (std::size_t k = 0; k < m; ++k) {
+    const CcpContact& c = assembly_.geometry(k);
+    const std::span<double> rows = std::span{gamma_}.subspan(assembly_.first_row(k));
+    store_block(rows, 0, in_frame(c, scale * world_impulse_[k]));
+    const dvi::RollingContact* rolling = assembly_.rolling(k);
+    if (rolling == nullptr) continue;
+    store_block(rows, 1, in_frame(c, (scale / rolling->length) * world_angular_impulse_[k]));
   }
-  if (problem.contacts.size() < kManyRecords) return;
+  if (m < kManyRecords) return;
   // The solver needs the room; remember() makes them anew.
   memory_.clear();
-  release(keys_, world_impulse_);
+  release(keys_, world_impulse_, world_angular_impulse_);
 }
 
 SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt) {
   const CcpProblem problem = assembly_.problem();
   recall(bodies, problem, dt);
   SolveSummary solved;
-  if (problem.contacts.size() > 0) {
+  if (!problem.empty()) {
     if (options_.coulomb) {
       CoulombLimits limits = options_.coulomb_limits;
       limits.solver_has_its_own_goal = true;
@@ -135,43 +140,50 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
     delassus_.body_velocities(gamma_, w_);
   }
   keep_results(problem);
-  remember(bodies, problem, dt);
+  remember(bodies, dt);
   for (std::size_t k = 0; k < problem.bodies(); ++k) {
     const BodyIndex body = assembly_.bodies()[k];
     velocity_[body] += w_[k].linear;
     angular_velocity_[body] += w_[k].angular;
   }
-  if (problem.contacts.size() >= kManyRecords) release_step();
+  if (problem.units() >= kManyRecords) release_step();
   return solved;
 }
 
 // While velocity_ is still that of the free motion.
 void Dvi::keep_results(const CcpProblem& problem) {
-  const std::size_t m = problem.contacts.size();
+  const std::size_t m = assembly_.contacts().size();
   impulse_.resize(m);
   before_.resize(m);
   after_.resize(m);
+  angular_impulse_.assign(problem.blocks.empty() ? 0 : m, Vec3{});
   const auto free = [&](std::uint32_t number) {
     const BodyIndex body = assembly_.bodies()[number];
     return Twist{velocity_[body], angular_velocity_[body]};
   };
   for (std::size_t k = 0; k < m; ++k) {
-    const std::size_t i = assembly_.block_of()[k];
-    const CcpContact& c = problem.contacts[i];
-    impulse_[k] = load_block(gamma_, i);
+    const CcpContact& c = assembly_.geometry(k);
+    const std::span<const double> rows = std::span<const double>{gamma_}.subspan(assembly_.first_row(k));
+    impulse_[k] = load_block(rows, 0);
     before_[k] = relative_velocity(c, free(c.a), free(c.b));
     after_[k] = before_[k] + relative_velocity(c, w_[c.a], w_[c.b]);
+    const dvi::RollingContact* rolling = assembly_.rolling(k);
+    if (rolling != nullptr) angular_impulse_[k] = rolling->length * load_block(rows, 1);
   }
 }
 
-void Dvi::remember(const BodyView& bodies, const CcpProblem& problem, double dt) {
+void Dvi::remember(const BodyView& bodies, double dt) {
   if (!options_.warm_start) return;
   find_keys(bodies);
-  world_impulse_.resize(problem.contacts.size());
-  for (std::size_t k = 0; k < world_impulse_.size(); ++k) {
-    world_impulse_[k] = in_world(problem.contacts[assembly_.block_of()[k]], impulse_[k]);
+  const std::size_t m = keys_.size();
+  world_impulse_.resize(m);
+  world_angular_impulse_.resize(angular_impulse_.size());
+  for (std::size_t k = 0; k < m; ++k) {
+    const CcpContact& c = assembly_.geometry(k);
+    world_impulse_[k] = in_world(c, impulse_[k]);
+    if (!angular_impulse_.empty()) world_angular_impulse_[k] = in_world(c, angular_impulse_[k]);
   }
-  memory_.store(keys_, world_impulse_);
+  memory_.store(keys_, world_impulse_, world_angular_impulse_);
   memory_dt_ = dt;
 }
 
@@ -180,7 +192,7 @@ void Dvi::release_step() {
   assembly_.release_problem();
   delassus_ = {};
   coulomb_ = {};
-  release(gamma_, w_, keys_, world_impulse_);
+  release(gamma_, w_, keys_, world_impulse_, world_angular_impulse_);
 }
 
 void Dvi::measure_overlap(const BodyView& bodies, StepSummary& summary) const {
@@ -188,10 +200,7 @@ void Dvi::measure_overlap(const BodyView& bodies, StepSummary& summary) const {
   std::size_t closed = 0;
   for (const Contact& c : assembly_.contacts()) {
     if (c.gap > 0.0) continue;
-    const auto size_of = [&](BodyIndex i) {
-      return bodies.motion[i] == Motion::dynamic ? bodies.radius[i] : std::numeric_limits<double>::infinity();
-    };
-    sum -= c.gap / std::min(size_of(c.a), size_of(c.b));
+    sum -= c.gap / dvi::smaller_radius(bodies, c);
     summary.max_penetration = std::max(summary.max_penetration, -c.gap);
     ++closed;
   }
@@ -219,7 +228,7 @@ void Dvi::move(const BodyState& bodies, const Executor& executor, double dt) con
   });
 }
 
-ContactView Dvi::contacts() const { return {assembly_.contacts(), impulse_, before_, after_}; }
+ContactView Dvi::contacts() const { return {assembly_.contacts(), impulse_, before_, after_, angular_impulse_}; }
 
 void Dvi::save(StateWriter& out) const {
   memory_.save(out);

@@ -35,6 +35,7 @@ class Dvi final : public TimeStepper {
   static std::vector<Parameter> parameters();
 
   [[nodiscard]] bool needs_ccp_solver() const override { return true; }
+  [[nodiscard]] bool resists_rolling() const override { return true; }
   StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) override;
   [[nodiscard]] ContactView contacts() const override;
   void save(StateWriter& out) const override;
@@ -46,7 +47,7 @@ class Dvi final : public TimeStepper {
   void recall(const BodyView& bodies, const CcpProblem& problem, double dt);
   void find_keys(const BodyView& bodies);
   void keep_results(const CcpProblem& problem);
-  void remember(const BodyView& bodies, const CcpProblem& problem, double dt);
+  void remember(const BodyView& bodies, double dt);
   void release_step();
   void measure_overlap(const BodyView& bodies, StepSummary& summary) const;
   void move(const BodyState& bodies, const Executor& executor, double dt) const;
@@ -63,8 +64,9 @@ class Dvi final : public TimeStepper {
   std::vector<Twist> w_;
 
   std::vector<Vec3> impulse_, before_, after_;  ///< per contact, as found
+  std::vector<Vec3> angular_impulse_;           ///< the same; empty when nothing resists rolling
   std::vector<ContactKey> keys_;                ///< per contact, as found
-  std::vector<Vec3> world_impulse_;
+  std::vector<Vec3> world_impulse_, world_angular_impulse_;
   ContactMemory memory_;
   double memory_dt_ = 0.0;  ///< step that the remembered impulses belong to [s]
 };
