@@ -20,8 +20,8 @@
 // Colledani, "Particle Simulation of Granular Flows in Electrostatic Separation Processes", derived again and checked
 // with finite elements.
 //
-// A side envelope g(z) scales field and potential alike, so that E = -grad V holds in every plane of constant z; the
-// axial component that a true three-dimensional field would have near the sides is left out.
+// A side envelope g(z) scales field and potential alike, so that E = -grad V holds in every plane of constant z. The axial
+// component -V g'(z) of that gradient is left out: E_z = 0, and E has no potential near the sides.
 #pragma once
 
 #include <vector>

@@ -112,22 +112,48 @@ TEST(two_cylinders, potential_is_harmonic_and_bounded) {
   EXPECT_NEAR(potential_at(field, {-1e5, 1e5, 0}), far, 1.0);
 }
 
-TEST(two_cylinders, field_is_minus_the_gradient_of_the_potential) {
-  const TwoCylinders field = field_from(kMachine + "centre = [0.5, -0.25, 0.0]\nenvelope = 'tanh'\n");
+/// -dV/dx along an axis, by differences over 2e-5 m. Error delta^2 / 6 of V's third derivative, about 2 E / (0.05 m)^2: 1e-8
+/// of E; rounding eps V / delta: 1e-6 V/m.
+double minus_slope(const ElectricField& field, const Vec3& point, int axis) {
   constexpr double kDelta = 1e-5;
-  for (const Vec3& offset :
-       {Vec3{0.2, 0.11, 0.1}, Vec3{0.0, 0.18, 0.18}, Vec3{-0.1, -0.2, 0.3}, Vec3{0.26, 0.2, 0.0}}) {
-    const Vec3 point = Vec3{0.5, -0.25, 0.0} + offset;
-    const Vec3 e = field_at(field, point);
-    for (int axis = 0; axis < 2; ++axis) {
-      Vec3 above = point;
-      Vec3 below = point;
-      above[axis] += kDelta;
-      below[axis] -= kDelta;
-      const double slope = (potential_at(field, above) - potential_at(field, below)) / (2.0 * kDelta);
-      // Error delta^2 / 6 * V''' with V''' about 2 E / (0.05 m)^2: 1e-8 of E; rounding eps V / delta: 1e-6 V/m.
-      EXPECT_NEAR(e[axis], -slope, 1e-7 * norm(e) + 1e-5);
+  Vec3 above = point;
+  Vec3 below = point;
+  above[axis] += kDelta;
+  below[axis] -= kDelta;
+  return (potential_at(field, below) - potential_at(field, above)) / (2.0 * kDelta);
+}
+
+constexpr Vec3 kOffsets[] = {{0.2, 0.11, 0.1}, {0.0, 0.18, 0.18}, {-0.1, -0.2, -0.3}, {0.26, 0.2, 0.0}};
+constexpr Vec3 kCentre{0.5, -0.25, 0.0};
+
+TEST(two_cylinders, field_is_minus_the_gradient_of_the_potential) {
+  const TwoCylinders field = field_from(kMachine + "centre = [0.5, -0.25, 0.0]\n");
+  for (const Vec3& offset : kOffsets) {
+    const Vec3 e = field_at(field, kCentre + offset);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(e[axis], minus_slope(field, kCentre + offset, axis), 1e-7 * norm(e) + 1e-5) << axis;
     }
+  }
+}
+
+// Under an envelope g(z) that holds in planes of constant z. Along z there is no field, though the potential g V falls: what
+// is left out is -V g'(z), of tanh V / (2 l cosh^2((|z| - z0) / l)), away from the machine's middle.
+TEST(two_cylinders, envelope_keeps_the_gradient_in_planes_across_the_roll_and_leaves_out_its_axial_part) {
+  const double z0 = 0.177, l = 0.054;
+  const TwoCylinders plain = field_from(kMachine + "centre = [0.5, -0.25, 0.0]\n");
+  const TwoCylinders field = field_from(kMachine + "centre = [0.5, -0.25, 0.0]\nenvelope = 'tanh'\n");
+  for (const Vec3& offset : kOffsets) {
+    const Vec3 point = kCentre + offset, e = field_at(field, point);
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_NEAR(e[axis], minus_slope(field, point, axis), 1e-7 * norm(e) + 1e-5) << axis;
+    }
+    EXPECT_EQ(e.z, 0.0);
+    if (offset.z == 0.0) continue;  // the envelope has a kink there
+    const double steepness = std::cosh((std::abs(offset.z) - z0) / l);
+    const double v = potential_at(plain, point);
+    const double left_out = std::copysign(1.0, offset.z) * v / (2.0 * l * steepness * steepness);
+    // The third derivative along z is V / l^3 at most: an error of 1e-8 V / l.
+    EXPECT_NEAR(minus_slope(field, point, 2), left_out, 1e-7 * std::abs(v) / l);
   }
 }
 
