@@ -54,11 +54,13 @@ with Check(__file__) as check:
         check.holds(f"seed {seed}: without voltage and with equal densities they differ by less than 2 standard errors",
                     abs(apart) < 2, f"measured {apart:.2f}")
 
-    mixture = check.run("mixture", scene=check.scene.with_name("mixture.toml"),
-                        **SHORT | {"source__feed__rate": 2 * RATE, "observer__collector__u_bins": 160})
-    metal, mixed, plastic = (landing(mixture, name, "collector") for name in ("metal", "mixed", "plastic"))
-    # A tenth of the feed, and a fifth metal: the two differ little from metal, so one standard error has to do there.
-    for law, apart, least in (("mixed grains land farther than plastic", standard_errors(mixed, plastic), 5),
-                              ("mixed grains land nearer than metal", standard_errors(metal, mixed), 1)):
-        check.holds(f"{law}, by more than {least} standard errors", apart > least,
-                    f"plastic {plastic[0]:.4f} m, mixed {mixed[0]:.4f} m, metal {metal[0]:.4f} m: {apart:.1f}")
+    for seed in (1, 2, 3):
+        # Three in ten grains are mixed ones, not one: enough to tell them from metal, which they resemble most.
+        mixture = check.run(f"mixture_{seed}", scene=check.scene.with_name("mixture.toml"), simulation__seed=seed,
+                            source__feed__families__mixed__share=0.4,
+                            **SHORT | {"source__feed__rate": 2 * RATE, "observer__collector__u_bins": 160})
+        metal, mixed, plastic = (landing(mixture, name, "collector") for name in ("metal", "mixed", "plastic"))
+        for law, apart, least in (("mixed grains land farther than plastic", standard_errors(mixed, plastic), 10),
+                                  ("mixed grains land nearer than metal", standard_errors(metal, mixed), 4)):
+            check.holds(f"seed {seed}: {law}, by more than {least} standard errors", apart > least,
+                        f"plastic {plastic[0]:.4f} m, mixed {mixed[0]:.4f} m, metal {metal[0]:.4f} m: {apart:.1f}")
