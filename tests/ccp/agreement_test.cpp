@@ -2,21 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "conformance/ccp_solver_case.hpp"
-#include "scree/config/validate.hpp"
-#include "scree/host/plugin_host.hpp"
+#include "solver_by_name.hpp"
 
 namespace scree::test {
 namespace {
-
-std::unique_ptr<CcpSolver> solver_named(const std::string& name) {
-  static PluginHost* const host = [] {
-    auto* made = new PluginHost;  // plugins are never unloaded
-    made->search(SCREE_PLUGINS);
-    return made;
-  }();
-  const PluginEntry& entry = host->entry(CcpSolver::kKind, name, {});
-  return std::unique_ptr<CcpSolver>{dynamic_cast<CcpSolver*>(entry.make(default_options(entry.parameters)).release())};
-}
 
 std::vector<Twist> velocities_of(const CcpProblem& problem, std::span<const double> gamma) {
   DelassusOperator delassus;

@@ -31,11 +31,11 @@ using ContactBuffer = std::vector<Contact>;
 /// The contacts of the last step, spans of equal length (or empty where it says so).
 struct ContactView {
   std::span<const Contact> contact;
-  std::span<const Vec3> impulse;          ///< on b, in the contact frame: normal,
-                                          ///< tangent 1, tangent 2 [N s]
-  std::span<const Vec3> velocity_before;  ///< of b's surface relative to a's, contact frame,
-                                          ///< before the solve [m/s]
-  std::span<const Vec3> velocity_after;   ///< the same after the solve [m/s]
+  std::span<const Vec3> impulse;               ///< on b, in the contact frame: normal,
+                                               ///< tangent 1, tangent 2 [N s]
+  std::span<const Vec3> velocity_before;       ///< of b's surface relative to a's, contact frame,
+                                               ///< before the solve [m/s]
+  std::span<const Vec3> velocity_after;        ///< the same after the solve [m/s]
   std::span<const Vec3> angular_impulse = {};  ///< what resists rolling: on b, about the point, in the contact frame:
                                                ///< spin, rolling 1, rolling 2 [N m s]; empty where nothing does
 
