@@ -1,4 +1,4 @@
-// scree solve PROBLEM.h5: one recorded contact problem, one solver.
+// scree solve PROBLEM: one contact problem, recorded or of FCLIB, one solver.
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "problem_file.hpp"
 #include "say.hpp"
 #include "scene_plugins.hpp"
 #include "scree/config/scene_document.hpp"
@@ -24,11 +25,13 @@ struct SolveOptions {
   std::optional<double> tolerance;  ///< [m/s]
   std::optional<int> max_iterations;
   int threads = 0;  ///< 0: as many as the machine has
+  std::string friction = "associated";
+  std::filesystem::path output;  ///< empty: the answer is not kept
   bool warm = false;
   bool json = false;
 };
 
-void print_json(const SolverTrial& trial) {
+void print_json(const SolverTrial& trial, const SolveOptions& options) {
   const nlohmann::ordered_json out{{"solver", trial.solver},
                                    {"status", to_string(trial.summary.status)},
                                    {"iterations", trial.summary.iterations},
@@ -36,19 +39,29 @@ void print_json(const SolverTrial& trial) {
                                    {"relative_residual", trial.figures.relative_residual},
                                    {"coulomb_error", trial.figures.coulomb_error},
                                    {"objective", trial.figures.objective},
-                                   {"wall_time", trial.wall_time}};
+                                   {"wall_time", trial.wall_time},
+                                   {"cone_violation", trial.figures.impulse_violation},
+                                   {"velocity_violation", trial.figures.velocity_violation},
+                                   {"complementarity_gap", trial.figures.complementarity_gap},
+                                   {"friction", options.friction},
+                                   {"solves", trial.solves}};
   say("{}\n", out.dump(2));
 }
 
-void print_text(const SolverTrial& trial) {
-  say("solver             {}\n", trial.solver);
-  say("status             {}\n", to_string(trial.summary.status));
-  say("iterations         {}\n", trial.summary.iterations);
-  say("residual           {:.6g} m/s\n", trial.figures.residual);
-  say("relative_residual  {:.6g}\n", trial.figures.relative_residual);
-  say("coulomb_error      {:.6g}\n", trial.figures.coulomb_error);
-  say("objective          {:.9g} J\n", trial.figures.objective);
-  say("wall_time          {:.6g} s\n", trial.wall_time);
+void print_text(const SolverTrial& trial, const SolveOptions& options) {
+  say("solver               {}\n", trial.solver);
+  say("friction             {}\n", options.friction);
+  say("status               {}\n", to_string(trial.summary.status));
+  say("iterations           {}\n", trial.summary.iterations);
+  say("solves               {}\n", trial.solves);
+  say("residual             {:.6g} m/s\n", trial.figures.residual);
+  say("relative_residual    {:.6g}\n", trial.figures.relative_residual);
+  say("coulomb_error        {:.6g}\n", trial.figures.coulomb_error);
+  say("objective            {:.9g} J\n", trial.figures.objective);
+  say("cone_violation       {:.6g} N s\n", trial.figures.impulse_violation);
+  say("velocity_violation   {:.6g} m/s\n", trial.figures.velocity_violation);
+  say("complementarity_gap  {:.6g} J\n", trial.figures.complementarity_gap);
+  say("wall_time            {:.6g} s\n", trial.wall_time);
 }
 
 void solve(const SolveOptions& options) {
@@ -56,18 +69,19 @@ void solve(const SolveOptions& options) {
   const SceneDocument settings = SceneDocument::parse("", "the settings of the solver", options.settings);
   const Part<CcpSolver> solver = make_solver(host, options.solver, settings.root());
   (void)trial_settings({}, options.tolerance, options.max_iterations);  // wrong use first
-  const CcpRecord record = read_ccp_file(options.problem);
+  const ProblemFile problem{options.problem};
   const Executor executor{options.threads > 0 ? options.threads
                                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))};
-  TrialSettings wanted = trial_settings(record.origin, options.tolerance, options.max_iterations);
+  TrialSettings wanted = trial_settings(problem.record().origin, options.tolerance, options.max_iterations);
   wanted.warm = options.warm;
-  const SolverTrial trial = try_solver(solver, record, wanted, executor);
+  wanted.coulomb = options.friction == "coulomb";
+  const SolverTrial trial = try_solver(solver, problem.record(), wanted, executor);
+  if (!options.output.empty()) problem.write_solution(options.output, trial.answer);
   if (options.json) {
-    print_json(trial);
+    print_json(trial, options);
   } else {
-    say("{} bodies, {} contacts, step {} at {:.6g} s\n", record.inverse_mass.size(), record.contacts.size(),
-        record.origin.step, record.origin.time);
-    print_text(trial);
+    say("{}\n", problem.headline());
+    print_text(trial, options);
   }
 }
 
@@ -75,23 +89,33 @@ void solve(const SolveOptions& options) {
 
 void add_solve_command(CLI::App& app, int& /*exit_code*/) {
   const auto options = std::make_shared<SolveOptions>();
-  CLI::App* command = app.add_subcommand("solve", "Solve a contact problem that `run --record-ccp` kept");
-  command->add_option("problem", options->problem, "The problem")->required()->type_name("PROBLEM.h5");
+  CLI::App* command =
+      app.add_subcommand("solve", "Solve a contact problem that `run --record-ccp` kept, or one of FCLIB");
+  command->add_option("problem", options->problem, "The problem: a file of scree or of the Frictional Contact Library")
+      ->required()
+      ->type_name("PROBLEM");
   command->add_option("--solver", options->solver, "The solver; `scree plugins` lists them as ccp_solver:NAME")
       ->required()
       ->type_name("NAME");
   command->add_option("--set", options->settings, "Change a setting of the solver, for example relaxation=1.2")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--tolerance", options->tolerance, "Stop at this residual, in m/s [as in the scene]")
+  command->add_option("--tolerance", options->tolerance, "Stop at this residual, in m/s [as in the scene; FCLIB: 1e-8]")
       ->type_name("X");
-  command->add_option("--max-iterations", options->max_iterations, "Stop after so many iterations [as in the scene]")
+  command
+      ->add_option("--max-iterations", options->max_iterations,
+                   "Stop after so many iterations [as in the scene; FCLIB: 10000]")
       ->check(CLI::Range(1, 1'000'000'000))
       ->type_name("N");
   command->add_option("--threads", options->threads, "Threads; the answer does not depend on it [all cores]")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  command->add_flag("--warm", options->warm, "Start from the impulses that the run started from, not from zero");
+  command->add_option("--friction", options->friction, "associated (convex) or coulomb (exact) [associated]")
+      ->check(CLI::IsMember({"associated", "coulomb"}))
+      ->type_name("MODEL");
+  command->add_flag("--warm", options->warm, "Start from the recorded guess, not from zero");
+  command->add_option("-o,--output", options->output, "Write the problem and its answer to this file, as FCLIB does")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "Print the figures as JSON");
   command->add_option("--plugin-dir", options->plugin_dirs, "Look for plugins in this folder first (may be repeated)")
       ->type_name("DIR")

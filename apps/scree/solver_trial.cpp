@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "scree/ccp/coulomb.hpp"
 #include "scree/config/scene_document.hpp"
 #include "scree/config/validate.hpp"
 #include "scree/interfaces/plugin_library.hpp"
@@ -22,6 +23,41 @@ SolveContext context_of(const TrialSettings& settings, const Executor& executor)
   context.max_iterations = settings.max_iterations;
   context.executor = &executor;
   return context;
+}
+
+/// CCPs solved at most for one problem; mostly a few dozen are needed.
+constexpr int kMaxSolves = 1000;
+
+/// What the solver by itself does not do: exact friction, a matrix that is not symmetric.
+SolveSummary solve_over(CcpSolver& solver, const CcpProblem& problem, const TrialSettings& settings,
+                        const Executor& executor, SolverTrial& trial) {
+  const InnerSolve inner = [&](const CcpProblem& posed, const InnerGoal& goal, std::span<double> gamma) {
+    return solver.solve(
+        posed, context_of({.tolerance = goal.tolerance, .max_iterations = goal.max_iterations}, executor), gamma);
+  };
+  const CoulombLimits limits{.tolerance = settings.tolerance,
+                             .max_solves = kMaxSolves,
+                             .max_iterations = settings.max_iterations,
+                             .coulomb = settings.coulomb};
+  const CoulombSummary outer = CoulombIteration{}.solve(problem, executor, inner, limits, trial.answer);
+  trial.solves = outer.solves;
+  return outer.solve;
+}
+
+/// The judge's figures; residual, violations and gap are those of the friction that was asked for.
+CcpFigures figures_of(const CcpProblem& problem, std::span<const double> gamma, bool coulomb,
+                      const Executor& executor) {
+  CcpJudge judge;
+  CcpFigures figures = judge.figures(problem, gamma, &executor);
+  if (!coulomb) return figures;
+  CcpProblem exact = problem;
+  const std::vector<double> r = exact_r(problem, gamma, &executor);
+  exact.r = r;
+  const CcpFigures of_exact = judge.figures(exact, gamma, &executor);
+  figures.residual = of_exact.residual;
+  figures.velocity_violation = of_exact.velocity_violation;
+  figures.complementarity_gap = of_exact.complementarity_gap;
+  return figures;
 }
 
 }  // namespace
@@ -46,7 +82,8 @@ TrialSettings trial_settings(const CcpOrigin& origin, std::optional<double> tole
                 {"--tolerance", 0, 0},
                 fmt::format("a residual in m/s is needed, from 0 on; got {:g}", *tolerance)};
   }
-  return {tolerance.value_or(origin.tolerance), max_iterations.value_or(origin.max_iterations), false};
+  return {.tolerance = tolerance.value_or(origin.tolerance),
+          .max_iterations = max_iterations.value_or(origin.max_iterations)};
 }
 
 SolverTrial try_solver(const Part<CcpSolver>& solver, const CcpRecord& record, const TrialSettings& settings,
@@ -57,11 +94,14 @@ SolverTrial try_solver(const Part<CcpSolver>& solver, const CcpRecord& record, c
   trial.answer = start_of(record, settings);
   const CcpProblem problem = record.problem();
   const SolveContext context = context_of(settings, executor);
+  const bool alone = !settings.coulomb && problem.matrix.empty();
   const auto start = std::chrono::steady_clock::now();
-  trial.summary =
-      guarded(solver.info, ErrorKind::diverged, [&] { return solver.plugin->solve(problem, context, trial.answer); });
+  trial.summary = guarded(solver.info, ErrorKind::diverged, [&] {
+    return alone ? solver.plugin->solve(problem, context, trial.answer)
+                 : solve_over(*solver.plugin, problem, settings, executor, trial);
+  });
   trial.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  trial.figures = CcpJudge{}.figures(problem, trial.answer, &executor);
+  trial.figures = figures_of(problem, trial.answer, settings.coulomb, executor);
   return trial;
 }
 

@@ -27,6 +27,7 @@ struct TrialSettings {
   double tolerance = 1e-3;    ///< ccp_residual [m/s]
   int max_iterations = 1000;  ///< passes over all contacts
   bool warm = false;          ///< start from the recorded guess, not from zero
+  bool coulomb = false;       ///< exact Coulomb friction, in place of the associated problem
 };
 
 /// What the command line says wins over what the scene of the record said. @throws Error (usage) for a tolerance below 0.
@@ -43,8 +44,9 @@ struct TrialPoint {
 struct SolverTrial {
   std::string solver;
   bool warm = false;
-  SolveSummary summary;
-  CcpFigures figures;
+  SolveSummary summary;             ///< iterations: of all problems that were solved
+  int solves = 1;                   ///< problems solved, for exact friction or a matrix that is not symmetric
+  CcpFigures figures;               ///< residual, violations and gap: of the friction that was asked for
   double wall_time = 0.0;           ///< of the solver alone [s]
   std::vector<TrialPoint> history;  ///< filled by trace_solver(); begins with the guess, iteration 0
   std::vector<double> answer;       ///< impulses [N s]

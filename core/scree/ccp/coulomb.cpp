@@ -51,6 +51,16 @@ double largest(std::span<const double> values) {
 
 }  // namespace
 
+std::vector<double> exact_r(const CcpProblem& problem, std::span<const double> gamma, const Executor* executor) {
+  DelassusOperator delassus;
+  delassus.bind(problem, executor);
+  std::vector<double> u(problem.rows());
+  delassus.apply(gamma, u);
+  std::vector<double> r{problem.r.begin(), problem.r.end()};
+  for (std::size_t i = 0; i < problem.units(); ++i) r[normal_row(problem, i)] += slip_rate(problem, u, i);
+  return r;
+}
+
 void CoulombIteration::bind(const CcpProblem& problem, const Executor& executor) {
   const std::size_t rows = problem.rows(), units = problem.units();
   given_ = exact_ = posed_ = problem;

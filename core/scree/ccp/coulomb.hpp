@@ -52,6 +52,10 @@ struct CoulombSummary {
   double error = 0.0;
 };
 
+/// r of the exact problem of an answer `gamma` [N s]: that of `problem` with the answer's own s in its normal rows [m/s].
+[[nodiscard]] std::vector<double> exact_r(const CcpProblem& problem, std::span<const double> gamma,
+                                          const Executor* executor);
+
 /// The iteration; keeps its memory between problems.
 class CoulombIteration {
  public:

@@ -40,6 +40,12 @@ Answer solve(const CcpProblem& problem, const CoulombLimits& limits, const Inner
   return a;
 }
 
+double norm_of(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
+}
+
 CoulombLimits to(double tolerance) { return {.tolerance = tolerance, .max_solves = 100, .max_iterations = 2'000'000}; }
 
 // A mass that slides at 3 m/s and falls at 1 m/s: m stops the fall, friction takes mu times that from the slip. The associated
@@ -92,6 +98,21 @@ TEST(coulomb, random_problems_meet_signorini_and_coulomb) {
       }
     }
   }
+}
+
+// An answer of the exact problem is one of the associated problem that has its s in r.
+TEST(coulomb, answer_is_complementary_in_the_exact_problem) {
+  const TestingProblem t = test::random_problem({.bodies = 8, .contacts = 14, .seed = 2});
+  const Answer a = solve(t.view(), to(1e-10));
+  CcpProblem exact = t.view();
+  const std::vector<double> r = exact_r(exact, a.gamma, nullptr);
+  exact.r = r;
+  const CcpFigures figures = CcpJudge{}.figures(exact, a.gamma, nullptr);
+  EXPECT_NEAR(figures.residual, a.figures.coulomb_residual, 1e-13);
+  EXPECT_NEAR(figures.relative_residual * norm_of(r), a.figures.coulomb_error * norm_of(t.r), 1e-12);
+  EXPECT_LE(figures.velocity_violation, 1e-9);
+  EXPECT_LE(figures.complementarity_gap, 1e-7);
+  EXPECT_GT(a.figures.velocity_violation, 1e-3) << "something slides";
 }
 
 TEST(coulomb, says_how_far_it_got) {

@@ -6,7 +6,10 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "scree/ccp/delassus.hpp"
+#include "scree/ccp/fclib/fclib_export.hpp"
 #include "scree/ccp/fclib/testing_fclib.hpp"
+#include "support/ccp_problems.hpp"
 
 namespace scree {
 namespace {
@@ -139,6 +142,60 @@ TEST(fclib_ccp, stack_at_rest_has_no_velocity_under_its_own_weight) {
   const FclibSolution answer = reduced.solution(std::vector<double>{6, -0.5, 0, 4, 0, 0, 0});
   for (const double v : answer.v) EXPECT_NEAR(v, 0.0, 1e-15);
   for (const double u : answer.u) EXPECT_NEAR(u, 0.0, 1e-15);
+}
+
+// Written and read as a file of FCLIB, a problem with bodies is the same: the same velocities for the same impulses.
+TEST(fclib_export, keeps_what_impulses_do) {
+  test::TestingProblem t = test::random_problem({.bodies = 5, .contacts = 8, .compliant = true, .seed = 9});
+  t.blocks = {{.kind = CcpKind::free, .rows = 2, .first_row = 0, .a = 1, .b = 3},
+              {.kind = CcpKind::cone, .rows = 3, .first_row = 2, .a = 2, .b = 4, .friction = 0.75}};
+  for (int k = 0; k < 5; ++k) {
+    const double x = 0.1 * k;
+    t.block_rows.push_back({{{1, x, 0}, {x, -1, 2}}, {{-1, -x, 0}, {0.5, x, x}}});
+    t.r.push_back(x);
+    t.compliance.push_back(0.5 * x);
+  }
+  const CcpProblem problem = t.view();
+  std::mt19937 random{3};
+  std::normal_distribution<double> normal;
+  std::vector<double> gamma(problem.rows()), u(problem.rows());
+  for (double& g : gamma) g = normal(random);
+  DelassusOperator delassus;
+  delassus.bind(problem, nullptr);
+  delassus.apply(gamma, u);
+  const FclibProblem out = export_to_fclib(problem, gamma);
+  EXPECT_EQ(out.contacts(), 9u);
+  EXPECT_EQ(out.mu.back(), 0.75);
+  EXPECT_EQ(out.bilateral_rows(), 2u);
+  // Its own reduction, from matrices alone, and the solution that it carries.
+  const FclibCcp back{out, "file"};
+  const FclibSolution again = back.solution(back.impulses(*out.solution));
+  const std::size_t contacts = problem.contact_rows();
+  for (std::size_t k = 0; k < 27; ++k) {
+    const std::size_t row = k < contacts ? k : k + 2;  // the free block stands between
+    EXPECT_EQ(out.solution->r[k], gamma[row]);
+    EXPECT_NEAR(out.solution->u[k], u[row] + problem.r[row], 1e-12);  // rounding of numbers of order 10
+    EXPECT_NEAR(again.u[k], out.solution->u[k], 1e-12);
+  }
+  EXPECT_EQ(out.solution->lambda, (std::vector<double>{gamma[contacts], gamma[contacts + 1]}));
+}
+
+TEST(fclib_export, refuses_what_fclib_does_not_know) {
+  const auto exporting = [](const CcpBlock& block) -> std::string {
+    const test::TestingProblem t = test::one_block(1.0, block, std::vector<double>(block.rows, 0.0));
+    try {
+      (void)export_to_fclib(t.view(), std::vector<double>(block.rows, 0.0));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      return error.what();
+    }
+    return {};
+  };
+  const std::string head = "this problem cannot be kept as an FCLIB file: it has ",
+                    tail = ", and FCLIB knows contacts of one sort and bilateral constraints only";
+  EXPECT_EQ(exporting({.kind = CcpKind::box, .rows = 1}), head + "limits or motors" + tail);
+  EXPECT_EQ(exporting({.kind = CcpKind::cone, .rows = 6}), head + "contacts of 1 or 6 rows" + tail);
+  EXPECT_EQ(exporting({.kind = CcpKind::cone, .rows = 5}), "");
 }
 
 TEST(ccp_matrix, sums_entries_and_mirrors_its_blocks) {

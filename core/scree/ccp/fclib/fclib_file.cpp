@@ -191,13 +191,14 @@ void write_all(const FclibGroupWriter& top, const FclibProblem& problem) {
 
 }  // namespace
 
-bool is_fclib_file(const std::filesystem::path& file) {
+ProblemKind problem_kind(const std::filesystem::path& file) {
   silence_hdf5();
-  if (!std::filesystem::is_regular_file(file) || H5Fis_hdf5(file.c_str()) <= 0) return false;
+  if (!std::filesystem::is_regular_file(file) || H5Fis_hdf5(file.c_str()) <= 0) return ProblemKind::no_hdf5;
   const Handle opened = open_hdf5(file);
-  if (!opened.valid()) return false;
-  return std::any_of(kGroups.begin(), kGroups.end(),
-                     [&](const char* name) { return H5Lexists(opened.get(), name, H5P_DEFAULT) > 0; });
+  if (!opened.valid()) return ProblemKind::damaged;
+  const auto has = [&](const char* name) { return H5Lexists(opened.get(), name, H5P_DEFAULT) > 0; };
+  if (std::any_of(kGroups.begin(), kGroups.end(), has)) return ProblemKind::fclib;
+  return H5Aexists(opened.get(), "scree_version") > 0 ? ProblemKind::scree : ProblemKind::other;
 }
 
 FclibProblem read_fclib_file(const std::filesystem::path& file) {

@@ -12,14 +12,22 @@
 // header says rows p and columns i: that is understood where only that fits m and n.)
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "scree/ccp/fclib/fclib_problem.hpp"
 
 namespace scree {
 
-/// Whether `file` is an HDF5 file with a group of one of FCLIB's names. False for what cannot be opened.
-[[nodiscard]] bool is_fclib_file(const std::filesystem::path& file);
+/// What a file may hold that somebody takes for a contact problem.
+enum class ProblemKind : std::uint8_t {
+  no_hdf5,  ///< missing, a folder, or of another format
+  damaged,  ///< an HDF5 file that cannot be opened
+  fclib,    ///< a group of one of FCLIB's names
+  scree,    ///< written by scree, whatever it is
+  other,    ///< any other HDF5 file
+};
+[[nodiscard]] ProblemKind problem_kind(const std::filesystem::path& file);
 
 /// Reads a problem with its guesses and its solution. @throws Error (io) that names file and dataset when something is
 /// missing, of a wrong size or kind, not finite, out of range, when friction is negative, or when the file is damaged.

@@ -7,6 +7,7 @@
 
 #include "scree/ccp/fclib/testing_fclib.hpp"
 #include "scree/state/detail/hdf5_handle.hpp"
+#include "scree/state/hdf5_checkpoint.hpp"
 
 namespace scree {
 namespace {
@@ -107,14 +108,18 @@ TEST_F(FclibFileTest, knows_plane_contacts_and_rolling_friction_by_their_rows) {
   EXPECT_EQ(through_file(plane_rolling).rows_per_contact(), 3u);
 }
 
-TEST_F(FclibFileTest, tells_its_files_from_others) {
+TEST_F(FclibFileTest, tells_files_by_what_they_hold) {
   write_fclib_file(file_, small_local());
-  EXPECT_TRUE(is_fclib_file(file_));
-  EXPECT_FALSE(is_fclib_file(folder_));
-  EXPECT_FALSE(is_fclib_file(folder_ / "missing.hdf5"));
+  EXPECT_EQ(problem_kind(file_), ProblemKind::fclib);
+  EXPECT_EQ(problem_kind(folder_), ProblemKind::no_hdf5);
+  EXPECT_EQ(problem_kind(folder_ / "missing.hdf5"), ProblemKind::no_hdf5);
+  std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
+  EXPECT_EQ(problem_kind(file_), ProblemKind::damaged);
   const auto other = folder_ / "other.h5";
   { const Handle made{H5Fcreate(other.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose}; }
-  EXPECT_FALSE(is_fclib_file(other));
+  EXPECT_EQ(problem_kind(other), ProblemKind::other);
+  CheckpointWriter{{"", "0.1.0"}}.save_as(other);
+  EXPECT_EQ(problem_kind(other), ProblemKind::scree);
 }
 
 // Written by HDF5's own calls, as FCLIB's library and others do: scalars without extent, wide integers, room left in x.
