@@ -29,7 +29,7 @@ Extent extent() {
   return out;
 }
 
-/// A cloud of balls and shavings, 1 to 8 mm, that moves through a floor's plane and a turning box; a twentieth of it is
+/// A cloud of balls and shavings, 1 to 8 mm, that moves through a floor's plane and a turning box; a few of them are
 /// exchanged in each frame.
 class MovingCloud {
  public:
@@ -51,7 +51,7 @@ class MovingCloud {
     }
     const std::size_t count = bodies.size();
     std::vector<char> gone(count, 0);
-    for (std::size_t k = 0; k < count / 20; ++k) gone[2 + random_.below(count - 2)] = 1;
+    for (std::size_t k = 0; k < 5 + count / 1000; ++k) gone[2 + random_.below(count - 2)] = 1;
     bodies.remove(gone);
     while (bodies.size() < count) add_grain();
   }

@@ -55,6 +55,13 @@ double pyramid_excess(const Vec3& p) {
   return most;
 }
 
+/// Zero on the surface, with slope one across it.
+double ellipsoid_excess(const Vec3& p) {
+  const Vec3 q{p.x / 0.5, p.y / 0.2, p.z / 0.7};
+  const Vec3 slope{q.x / 0.5, q.y / 0.2, q.z / 0.7};
+  return 0.5 * (squared_norm(q) - 1.0) / std::max(norm(slope), 1e-3);
+}
+
 std::vector<ConvexCase> cases() {
   const Vec3 box{0.7, 0.5, 0.3};
   const auto plain = [](ShapeKind kind, Vec3 size) {
@@ -77,6 +84,11 @@ std::vector<ConvexCase> cases() {
            [](const Vec3& n) { return std::max(0.6 * n.z, 0.5 * std::hypot(n.x, n.y) - 0.6 * n.z); },
            // Below the apex the radius grows by 0.5 over a height of 1.2.
            [](const Vec3& p) { return std::max(-0.6 - p.z, std::hypot(p.x, p.y) - 0.5 * (0.6 - p.z) / 1.2); }},
+          {"ellipsoid", plain(ShapeKind::ellipsoid, {0.5, 0.2, 0.7}),
+           [](const Vec3& n) {
+             return norm(hadamard(n, {0.5, 0.2, 0.7}));
+           },
+           ellipsoid_excess},
           {"hull", [](double scale) { return hull_data(scaled(kCorners, scale), kSides); }, corner_support,
            pyramid_excess}};
 }

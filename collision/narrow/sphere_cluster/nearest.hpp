@@ -27,6 +27,10 @@ struct Nearest {
 /// Cone of base radius r [m] at z = -h and apex at z = h [m].
 [[nodiscard]] Nearest nearest_on_cone(double r, double h, const Vec3& p);
 
+/// Ellipsoid of half axes `half` [m]: the root of Eberly, "Distance from a point to an ellipse, an ellipsoid, or a
+/// hyperellipsoid" (2013), eq. 27, by Newton's method, which is monotone there.
+[[nodiscard]] Nearest nearest_on_ellipsoid(const Vec3& half, const Vec3& p);
+
 /// The walls of a closed drum of radius r [m] and half length h [m] seen from
 /// inside: mantle, lid at +z, lid at -z. Distances are positive inside.
 [[nodiscard]] std::array<Nearest, 3> walls_of_drum(double r, double h, const Vec3& p);

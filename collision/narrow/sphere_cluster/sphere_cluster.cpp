@@ -77,6 +77,8 @@ Nearest nearest_on_convex(const SolidSet& set, const Solid& solid, const Vec3& p
       return nearest_on_capsule(solid.size.x, solid.size.y, p);
     case ShapeKind::cone:
       return nearest_on_cone(solid.size.x, solid.size.y, p);
+    case ShapeKind::ellipsoid:
+      return nearest_on_ellipsoid(solid.size, p);
     case ShapeKind::convex_hull:
       return nearest_on_hull(*set.shapes, set.shapes->primitives()[solid.primitive], p, limit);
     case ShapeKind::plane:

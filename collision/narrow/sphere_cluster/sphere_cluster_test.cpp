@@ -91,10 +91,13 @@ TEST(SphereCluster, clusters_touch_as_their_spheres) {
 // Law: a cluster touches a solid as each of its spheres alone does, whatever the solid.
 TEST(SphereCluster, cluster_touches_solids_as_its_spheres) {
   RandomNumbers random{9};
-  const std::vector<PrimitiveData> solids{
-      primitive_data(ShapeKind::box, {0.6, 0.4, 0.3}),          primitive_data(ShapeKind::cylinder, {0.4, 0.5, 0}),
-      primitive_data(ShapeKind::cylinder, {1.2, 1.0, 0}, true), primitive_data(ShapeKind::cone, {0.4, 0.5, 0}),
-      primitive_data(ShapeKind::capsule, {0.4, 0.5, 0}),        plane_data()};
+  const std::vector<PrimitiveData> solids{primitive_data(ShapeKind::box, {0.6, 0.4, 0.3}),
+                                          primitive_data(ShapeKind::cylinder, {0.4, 0.5, 0}),
+                                          primitive_data(ShapeKind::cylinder, {1.2, 1.0, 0}, true),
+                                          primitive_data(ShapeKind::cone, {0.4, 0.5, 0}),
+                                          primitive_data(ShapeKind::capsule, {0.4, 0.5, 0}),
+                                          primitive_data(ShapeKind::ellipsoid, {0.4, 0.5, 0.3}),
+                                          plane_data()};
   for (const PrimitiveData& solid : solids) {
     for (int trial = 0; trial < trials(50); ++trial) {
       const auto spheres = random_spheres(random, 8);
@@ -171,7 +174,8 @@ TEST(SphereCluster, lowest_point_of_round_solids_on_a_plane) {
     const std::vector<std::pair<PrimitiveData, double>> solids{
         {primitive_data(ShapeKind::cylinder, {0.3, 0.5, 0}), 0.3 * side + 0.5 * std::abs(down.z)},
         {primitive_data(ShapeKind::cone, {0.3, 0.5, 0}), std::max(0.5 * down.z, 0.3 * side - 0.5 * down.z)},
-        {primitive_data(ShapeKind::capsule, {0.3, 0.5, 0}), 0.3 + 0.5 * std::abs(down.z)}};
+        {primitive_data(ShapeKind::capsule, {0.3, 0.5, 0}), 0.3 + 0.5 * std::abs(down.z)},
+        {primitive_data(ShapeKind::ellipsoid, {0.3, 0.5, 0.2}), norm(hadamard(down, {0.3, 0.5, 0.2}))}};
     for (const auto& [solid, depth] : solids) {
       SphereCluster phase;
       PairScene scene{plane_data(), solid};

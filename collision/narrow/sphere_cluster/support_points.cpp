@@ -44,6 +44,11 @@ void support_points(const SolidSet& set, const Solid& solid, const Vec3& up, std
       out.push_back({{0, 0, -s.y}, s.x});
       out.push_back({{0, 0, s.y}, s.x});
       return;
+    case ShapeKind::ellipsoid: {
+      const Vec3 stretched = hadamard(s, up);
+      out.push_back({hadamard(s, stretched) / -norm(stretched), 0.0});
+      return;
+    }
     case ShapeKind::convex_hull:
     case ShapeKind::triangle_mesh:
       for (const Vec3& v : set.shapes->vertices().subspan(primitive.first_vertex, primitive.vertex_count)) {

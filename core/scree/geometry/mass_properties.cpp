@@ -147,6 +147,12 @@ MassProperties cone_mass_properties(double radius, double half_height) {
   return {volume, {0, 0, -0.5 * half_height}, {across, across, 0.3 * volume * radius * radius}, {}};
 }
 
+MassProperties ellipsoid_mass_properties(const Vec3& half_axes) {
+  const double volume = 4.0 / 3.0 * kPi * half_axes.x * half_axes.y * half_axes.z;
+  const Vec3 s = hadamard(half_axes, half_axes);
+  return {volume, {}, 0.2 * volume * Vec3{s.y + s.z, s.x + s.z, s.x + s.y}, {}};
+}
+
 MassProperties mesh_mass_properties(const TriangleMesh& mesh) {
   if (const std::string problem = check_mesh(mesh).problem(); !problem.empty()) {
     throw Error{ErrorKind::usage, "the mesh does not bound a solid: " + problem};

@@ -59,6 +59,9 @@ struct VolumeMoments {
 /// the centre lies at z = -half_height / 2. @param radius of the base [m] @param half_height [m]
 [[nodiscard]] MassProperties cone_mass_properties(double radius, double half_height);
 
+/// Solid ellipsoid of the given half axes [m].
+[[nodiscard]] MassProperties ellipsoid_mass_properties(const Vec3& half_axes);
+
 /// The solid inside a closed mesh, by exact polyhedral integrals (sum over signed tetrahedra: Eberly, "Polyhedral mass
 /// properties", 2002, gives the same polynomials). @throws Error (usage) when the mesh is not a solid, with the reason.
 [[nodiscard]] MassProperties mesh_mass_properties(const TriangleMesh& mesh);

@@ -182,6 +182,15 @@ TEST(mass_properties, a_composition_does_not_depend_on_the_order_of_its_parts) {
   }
 }
 
+TEST(mass_properties, an_ellipsoid_is_a_stretched_ball) {
+  // Second moments of volume scale with their own axis squared, times the volume's factor.
+  const double a = 0.5, b = 0.2, c = 0.7;
+  const MassProperties ball = sphere_mass_properties(1.0), found = ellipsoid_mass_properties({a, b, c});
+  const double second = 0.5 * ball.inertia.x;  // integral of x^2 over the unit ball
+  EXPECT_NEAR(found.volume, ball.volume * a * b * c, 1e-15);
+  expect_near(found.inertia, second * a * b * c * Vec3{b * b + c * c, a * a + c * c, a * a + b * b}, 1e-15);
+}
+
 TEST(mass_properties, scaling_goes_with_the_third_and_fifth_power) {
   const MassProperties small = scaled(cone_mass_properties(1.0, 2.0), 1e-3);
   const MassProperties closed = cone_mass_properties(1e-3, 2e-3);

@@ -25,6 +25,8 @@ double bounding_radius_of(const PrimitiveData& data) {
       return std::hypot(s.x, s.y);
     case ShapeKind::capsule:
       return s.x + s.y;
+    case ShapeKind::ellipsoid:
+      return std::max({s.x, s.y, s.z});
     case ShapeKind::plane:
       return kInfinity;
     case ShapeKind::sphere_cluster:
@@ -71,7 +73,8 @@ Aabb plane_bounds(const Pose& world) {
 
 const char* to_string(ShapeKind kind) {
   static constexpr std::array<const char*, kShapeKindCount> kNames{
-      "sphere", "sphere_cluster", "box", "cylinder", "capsule", "cone", "plane", "convex_hull", "triangle_mesh"};
+      "sphere", "sphere_cluster", "box",         "cylinder",      "capsule",
+      "cone",   "plane",          "convex_hull", "triangle_mesh", "ellipsoid"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -127,6 +130,11 @@ Aabb bounds(const ShapeSet& shapes, const Primitive& primitive, const Pose& worl
     case ShapeKind::cone: {
       const Vec3 a = rotate(world.orientation, {0, 0, 1});
       return merged(around(c - s.y * a, disc_extent(a, s.x)), c + s.y * a);
+    }
+    case ShapeKind::ellipsoid: {
+      // Along a world axis the support of the ball that it is in stretched coordinates.
+      const Mat3 r = to_matrix(world.orientation);
+      return around(c, {norm(hadamard(r.row0, s)), norm(hadamard(r.row1, s)), norm(hadamard(r.row2, s))});
     }
     case ShapeKind::plane:
       return plane_bounds(world);

@@ -31,10 +31,11 @@ enum class ShapeKind : std::uint8_t {
   cone,            ///< size.x: base radius, size.y: half height; apex at +z, base at -z
   plane,           ///< half space z <= 0 is solid; outward normal +z; unbounded
   convex_hull,     ///< items of vertices(); faces in faces()
-  triangle_mesh    ///< a closed or open surface: items of triangles(), indexing
+  triangle_mesh,   ///< a closed or open surface: items of triangles(), indexing
                    ///< vertices()
+  ellipsoid        ///< size: half axes
 };
-inline constexpr std::size_t kShapeKindCount = 9;
+inline constexpr std::size_t kShapeKindCount = 10;
 
 [[nodiscard]] const char* to_string(ShapeKind kind);
 

@@ -23,6 +23,8 @@ Vec3 surface_point(ShapeKind kind, const Vec3& s, RandomStream& random) {
       return s.x * d + Vec3{0, 0, d.z > 0 ? s.y : -s.y};
     case ShapeKind::cone:
       return u > 0.9 ? Vec3{0, 0, s.y} : Vec3{s.x * std::cos(t), s.x * std::sin(t), -s.y};
+    case ShapeKind::ellipsoid:
+      return hadamard(s, d);
     default:
       return s.x * d;
   }
@@ -33,8 +35,8 @@ Vec3 surface_point(ShapeKind kind, const Vec3& s, RandomStream& random) {
 TEST(ShapeSet, bounds_are_tight) {
   RandomStream random{3, "bounds"};
   const ShapeSet shapes;
-  for (const ShapeKind kind :
-       {ShapeKind::sphere, ShapeKind::box, ShapeKind::cylinder, ShapeKind::capsule, ShapeKind::cone}) {
+  for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::box, ShapeKind::cylinder, ShapeKind::capsule,
+                               ShapeKind::cone, ShapeKind::ellipsoid}) {
     for (int trial = 0; trial < 20; ++trial) {
       Primitive p;
       p.kind = kind;

@@ -42,44 +42,47 @@ std::vector<Parameter> operator+(std::vector<Parameter> a, const std::vector<Par
 std::vector<Variant> primitive_variants(const std::vector<Parameter>& placed) {
   const auto length = [](const char* name, const char* help) { return Parameter::number(name, "m", help).above(0.0); };
   const auto file = [](const char* help) { return Parameter::path("file", help).optional(); };
-  return {{"sphere", "A ball.", std::vector<Parameter>{length("radius", "radius")} + placed},
-          {"sphere_cluster", "A rigid union of spheres.",
-           std::vector<Parameter>{Parameter::tables(
-               "spheres",
-               {Parameter::vector("centre", "m", "centre of the sphere"), length("radius", "radius of the sphere")},
-               "the spheres")} +
-               placed},
-          {"box", "A cuboid.",
-           std::vector<Parameter>{Parameter::vector("size", "m", "full edge lengths along x, y and z").above(0.0)} +
-               placed},
-          {"cylinder", "A cylinder about its z axis, solid or seen from inside.",
-           std::vector<Parameter>{
-               length("radius", "radius"), length("length", "full length along z"),
-               Parameter::boolean("hollow", "the inside is free and the outside solid: a drum").by_default(false)} +
-               placed},
-          {"capsule", "A cylinder with round caps about its z axis.",
-           std::vector<Parameter>{length("radius", "radius"), length("length", "length of the straight part along z")} +
-               placed},
-          {"cone", "A cone about its z axis, apex at +z.",
-           std::vector<Parameter>{length("radius", "radius of the base"), length("height", "height along z")} + placed},
-          {"plane", "The half space below z = 0 of its own frame; unbounded.",
-           std::vector<Parameter>{
-               Parameter::vector("normal", "1", "outward normal, before the rotation").by_default(Vec3{0, 0, 1})} +
-               placed},
-          {"convex_hull", "The convex hull of points.",
-           std::vector<Parameter>{
-               Parameter::numbers("points", "m", "x, y, z of each point, one after the other").optional(),
-               file("STL, OBJ or PLY file with the points"),
-               Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
-               placed},
-          {"triangle_mesh", "A surface of triangles.",
-           std::vector<Parameter>{
-               Parameter::numbers("vertices", "m", "x, y, z of each vertex, one after the other").optional(),
-               Parameter::numbers("triangles", "1", "three indices of vertices a triangle, from 0, counter-clockwise")
-                   .optional(),
-               file("STL, OBJ or PLY file"),
-               Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
-               placed}};
+  return {
+      {"sphere", "A ball.", std::vector<Parameter>{length("radius", "radius")} + placed},
+      {"sphere_cluster", "A rigid union of spheres.",
+       std::vector<Parameter>{Parameter::tables(
+           "spheres",
+           {Parameter::vector("centre", "m", "centre of the sphere"), length("radius", "radius of the sphere")},
+           "the spheres")} +
+           placed},
+      {"box", "A cuboid.",
+       std::vector<Parameter>{Parameter::vector("size", "m", "full edge lengths along x, y and z").above(0.0)} +
+           placed},
+      {"cylinder", "A cylinder about its z axis, solid or seen from inside.",
+       std::vector<Parameter>{
+           length("radius", "radius"), length("length", "full length along z"),
+           Parameter::boolean("hollow", "the inside is free and the outside solid: a drum").by_default(false)} +
+           placed},
+      {"capsule", "A cylinder with round caps about its z axis.",
+       std::vector<Parameter>{length("radius", "radius"), length("length", "length of the straight part along z")} +
+           placed},
+      {"cone", "A cone about its z axis, apex at +z.",
+       std::vector<Parameter>{length("radius", "radius of the base"), length("height", "height along z")} + placed},
+      {"plane", "The half space below z = 0 of its own frame; unbounded.",
+       std::vector<Parameter>{
+           Parameter::vector("normal", "1", "outward normal, before the rotation").by_default(Vec3{0, 0, 1})} +
+           placed},
+      {"ellipsoid", "An ellipsoid with its axes along x, y and z.",
+       std::vector<Parameter>{Parameter::vector("semi_axes", "m", "half lengths along x, y, z").above(0.0)} + placed},
+      {"convex_hull", "The convex hull of points.",
+       std::vector<Parameter>{
+           Parameter::numbers("points", "m", "x, y, z of each point, one after the other").optional(),
+           file("STL, OBJ or PLY file with the points"),
+           Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
+           placed},
+      {"triangle_mesh", "A surface of triangles.",
+       std::vector<Parameter>{
+           Parameter::numbers("vertices", "m", "x, y, z of each vertex, one after the other").optional(),
+           Parameter::numbers("triangles", "1", "three indices of vertices a triangle, from 0, counter-clockwise")
+               .optional(),
+           file("STL, OBJ or PLY file"),
+           Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
+           placed}};
 }
 
 std::vector<SceneSection> model_sections() {

@@ -148,6 +148,10 @@ BuiltPart build_unplaced(const Options& options) {
       part.data.primitive.size = 0.5 * options.vector("size");
       part.mass = box_mass_properties(part.data.primitive.size);
       break;
+    case ShapeKind::ellipsoid:
+      part.data.primitive.size = options.vector("semi_axes");
+      part.mass = ellipsoid_mass_properties(part.data.primitive.size);
+      break;
     case ShapeKind::plane:
       part.has_volume = false;
       part.why_not = "a plane has no mass";

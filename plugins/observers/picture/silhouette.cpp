@@ -47,6 +47,9 @@ class SilhouetteBuilder {
         circle({0.0, 0.0, p.size.y}, p.size.x);
         circle({0.0, 0.0, -p.size.y}, p.size.x);
         break;
+      case ShapeKind::ellipsoid:
+        ellipsoid(p.size);
+        break;
       case ShapeKind::convex_hull:
         for (const Vec3& vertex : shapes_.vertices().subspan(p.first_vertex, p.vertex_count)) corner(vertex);
         break;
@@ -70,6 +73,16 @@ class SilhouetteBuilder {
     const Point2 centre = projection_(transform(pose_, local));
     for (int s = 0; s < kSegments; ++s) {
       corners_.push_back(centre + radius * Point2{std::cos(angle_of(s)), std::sin(angle_of(s))});
+    }
+  }
+  // The outline of an ellipsoid: stretched to a ball, the direction of view is stretched as well.
+  void ellipsoid(const Vec3& half_axes) {
+    const Vec3 view = rotate_back(pose_.orientation, projection_.to_viewer());
+    const Vec3 stretched = normalized(Vec3{view.x / half_axes.x, view.y / half_axes.y, view.z / half_axes.z});
+    const Vec3 across = normalized(cross(stretched, std::abs(stretched.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    const Vec3 other = cross(stretched, across);
+    for (int s = 0; s < kSegments; ++s) {
+      corner(hadamard(half_axes, std::cos(angle_of(s)) * across + std::sin(angle_of(s)) * other));
     }
   }
   void disc(const Vec3& local, double radius) {

@@ -74,6 +74,17 @@ class Builder {
     pose_ = outer;
   }
 
+  void ellipsoid(const Vec3& half_axes) {
+    const std::size_t first = out_.points.size();
+    const Pose outer = pose_;
+    pose_ = {};
+    sphere({}, 1.0);
+    pose_ = outer;
+    for (std::size_t i = first; i < out_.points.size(); ++i) {
+      out_.points[i] = transform(pose_, hadamard(half_axes, out_.points[i]));
+    }
+  }
+
   void capsule(double radius, double half_length) {
     std::vector<ProfilePoint> profile;
     append_arc(profile, -half_length, radius, -kQuarter, 0.0, options_.segments / 4);
@@ -132,6 +143,8 @@ void append_primitive(const ShapeSet& shapes, const Primitive& p, const SurfaceO
       return build.capsule(s.x, s.y);
     case ShapeKind::cone:
       return build.revolve({{0.0, -s.y}, {s.x, -s.y}, {0.0, s.y}});
+    case ShapeKind::ellipsoid:
+      return build.ellipsoid(s);
     case ShapeKind::plane: {
       const double h = 0.5 * options.plane_size;
       return build.quad({Vec3{-h, -h, 0}, Vec3{h, -h, 0}, Vec3{h, h, 0}, Vec3{-h, h, 0}});
