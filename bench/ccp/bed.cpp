@@ -17,7 +17,7 @@ namespace scree::bench {
 
 namespace {
 
-constexpr std::size_t kWalls = 5;
+constexpr std::size_t kWalls = BedProblem::kWalls;
 constexpr double kReach = 0.02;  // of a radius
 constexpr double kStep = 1e-3;   // [s]
 

@@ -28,7 +28,13 @@ Bed synthetic_bed(std::size_t count);
 class BedProblem {
  public:
   explicit BedProblem(const Bed& bed);
+  static constexpr std::size_t kWalls = 5;  ///< the first bodies; the spheres follow
+
   [[nodiscard]] CcpProblem problem() const { return assembly_.problem(); }
+  /// Walls and spheres by number in the problem.
+  [[nodiscard]] std::span<const BodyIndex> bodies() const { return assembly_.bodies(); }
+  /// The problem's contacts in the order in which they were found: by body, and by the other body.
+  [[nodiscard]] std::span<const std::uint32_t> found() const { return assembly_.block_of(); }
 
  private:
   dvi::ContactAssembly assembly_;
