@@ -1,7 +1,6 @@
 """The comparison's scenes for scree: dvi with steps of 1 ms. Standard library only."""
 
 import csv
-import json
 import pathlib
 import subprocess
 import sys
@@ -54,6 +53,13 @@ angular_velocity = [0.0, 0.0, {speed}]
 """
 
 
+def read_particles(path):
+    """Rows as in a bed file."""
+    arrays = vtp.read_arrays(path, ("Points", "radius", "velocity"))
+    p, r, v = arrays["Points"], arrays["radius"], arrays["velocity"]
+    return [[*p[3 * i:3 * i + 3], r[i], *v[3 * i:3 * i + 3]] for i in range(len(r))]
+
+
 class Scree:
     """One scene; start() brings it to its state, measure() continues from there."""
 
@@ -95,16 +101,10 @@ class Scree:
         rows = [{key.split(" ")[0]: value for key, value in row.items()} for row in rows]
         rows = [row for row in rows if float(row["time"]) > since + 0.5 * TIME_STEP]
         column = {key: [float(row[key]) for row in rows] for key in rows[0] if key != "status"}
-        phases = {key[8:]: sum(values) / seconds for key, values in column.items() if key.startswith("seconds_")}
-        wall = json.loads((out / "run.json").read_text())["wall_time"]
-        return {"wall": wall / seconds, "phases": phases, "columns": column}
+        phases = {key[8:]: sum(values) / len(rows) / TIME_STEP for key, values in column.items() if key.startswith("seconds_")}
+        return {"wall": sum(phases.values()), "phases": phases, "columns": column}
 
     def frames(self, since, seconds):
         """Positions at four times of the measured interval, from a run of their own that nobody times."""
         out = self.run(f"scree_{self.name}_frames", since + seconds, ["--resume", str(self.warm)], (), seconds / 4)
-        found = []
-        for path in sorted(out.glob("particles_*.vtp"))[-4:]:
-            arrays = vtp.read_arrays(path, ("Points", "radius", "velocity"))
-            p, r, v = arrays["Points"], arrays["radius"], arrays["velocity"]
-            found.append([[*p[3 * i:3 * i + 3], r[i], *v[3 * i:3 * i + 3]] for i in range(len(r))])
-        return found
+        return [read_particles(path) for path in sorted(out.glob("particles_*.vtp"))[-4:]]

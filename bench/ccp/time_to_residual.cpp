@@ -1,0 +1,251 @@
+// Time and iterations to stated residuals, for every solver, from zero and from the guess of a run.
+//
+//     time_to_residual [--only=NAME,...] [--limit=N] LABEL=FILE[,FILE...] ...
+//
+// A FILE is a bed (.txt), solved from zero, or a problem that `scree run --record-ccp` wrote (.h5), solved from zero and
+// from its guess. The files of a label are averaged. Solvers are those of the plugin folder with their defaults, and apgd
+// without its scaling ("apgd, plain"); --only=asgs takes some, NAME{KEY = VALUE} with other settings.
+//
+// To a residual: one solve with it as tolerance, the least of three if short. To the natural map: the same with the largest
+// tolerance found, by interpolation, at which the map is small enough. One thread.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "bed.hpp"
+#include "natural_map.hpp"
+#include "scree/ccp/ccp_file.hpp"
+#include "scree/config/validate.hpp"
+#include "scree/host/plugin_host.hpp"
+#include "scree/interfaces/ccp_solver.hpp"
+
+namespace scree::bench {
+namespace {
+
+constexpr std::array kResiduals{1e-2, 1e-3, 1e-4};  // [m/s]
+constexpr double kMap = 1e-4;                       // [1]
+constexpr int kMapTries = 6;
+constexpr double kShort = 0.5;  // solves of less are repeated [s]
+
+struct Settings {
+  std::vector<std::string> only;
+  int limit = 4000;
+};
+
+/// A solver as asked for.
+struct Method {
+  std::string name, plugin, toml;
+};
+
+/// What one solve took.
+struct Cost {
+  double iterations = 0.0, seconds = 0.0;
+};
+
+using Row = std::array<std::optional<Cost>, kResiduals.size() + 1>;
+
+struct Problem {
+  std::optional<BedProblem> bed;
+  std::optional<CcpRecord> record;
+  [[nodiscard]] CcpProblem problem() const { return bed ? bed->problem() : record->problem(); }
+};
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> out{""};
+  for (const char c : text) {
+    if (c == at) {
+      out.emplace_back();
+    } else {
+      out.back().push_back(c);
+    }
+  }
+  return out;
+}
+
+Problem read(const std::string& file) {
+  Problem out;
+  if (file.ends_with(".txt")) {
+    out.bed.emplace(read_bed(file));
+  } else {
+    out.record = read_ccp_file(file);
+  }
+  return out;
+}
+
+std::vector<Method> methods_of(const PluginHost& host, const Settings& settings) {
+  std::vector<Method> out;
+  for (const std::string& name : settings.only) {
+    const std::size_t brace = name.find('{');
+    const bool bare = brace == std::string::npos;
+    out.push_back({name, name.substr(0, brace), bare ? "" : name.substr(brace + 1, name.size() - brace - 2)});
+  }
+  if (!out.empty()) return out;
+  for (const PluginEntry* entry : host.entries()) {
+    if (entry->kind == CcpSolver::kKind) out.push_back({entry->name, entry->name, ""});
+  }
+  out.push_back({"apgd, plain", "apgd", "scaled = false"});
+  return out;
+}
+
+/// One method on one problem from one guess.
+class Trial {
+ public:
+  Trial(const PluginHost& host, const Method& method, const CcpProblem& problem, std::span<const double> guess,
+        int limit)
+      : problem_{problem}, guess_{guess}, limit_{limit} {
+    const PluginEntry& entry = host.entry(CcpSolver::kKind, method.plugin, {});
+    plugin_ = entry.make(options_from_text(method.toml, entry.parameters));
+    solver_ = dynamic_cast<CcpSolver*>(plugin_.get());
+    delassus_.bind(problem_, nullptr);
+  }
+
+  Row run() {
+    Row row;
+    for (std::size_t k = 0; k < kResiduals.size(); ++k) {
+      row[k] = solve(kResiduals[k]);
+      if (!row[k]) return row;
+    }
+    row.back() = solve_for_map();
+    return row;
+  }
+
+ private:
+  std::optional<Cost> solve(double tolerance) {
+    Cost cost;
+    double spent = 0.0;
+    for (int k = 0; k < 3 && (k == 0 || spent / k < kShort); ++k) {
+      gamma_.assign(problem_.rows(), 0.0);
+      std::copy(guess_.begin(), guess_.end(), gamma_.begin());
+      SolveContext context;
+      context.tolerance = tolerance;
+      context.max_iterations = limit_;
+      const auto start = std::chrono::steady_clock::now();
+      const SolveSummary summary = solver_->solve(problem_, context, gamma_);
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      if (summary.status != SolveStatus::converged) return std::nullopt;
+      cost = {static_cast<double>(summary.iterations), k == 0 ? took.count() : std::min(cost.seconds, took.count())};
+      spent += took.count();
+    }
+    map_of_[tolerance] = natural_map(delassus_, gamma_);
+    return cost;
+  }
+
+  std::optional<Cost> solve_for_map() {
+    std::optional<Cost> best;
+    for (int k = 0; k < kMapTries; ++k) {
+      // The tightest tolerance that misses, and the loosest below it that does not.
+      double misses = 0.0, holds = 0.0;
+      for (const auto& [tolerance, map] : map_of_) {
+        if (map > kMap && misses == 0.0) misses = tolerance;
+        if (map <= kMap && misses == 0.0) holds = tolerance;
+      }
+      if (misses > 0.0 && holds > 0.0 && misses < 1.15 * holds) break;
+      double next = 0.0;
+      if (holds == 0.0) {
+        next = 0.9 * misses * kMap / map_of_.at(misses);
+      } else if (misses == 0.0) {
+        next = 1.1 * holds * kMap / map_of_.at(holds);
+      } else {
+        const double slope = std::log(misses / holds) / std::log(map_of_.at(misses) / map_of_.at(holds));
+        const double guess = holds * std::pow(kMap / map_of_.at(holds), slope);
+        next = std::clamp(0.98 * guess, 1.02 * holds, 0.95 * misses);
+      }
+      const std::optional<Cost> cost = solve(next);
+      if (!cost) break;
+      if (map_of_.at(next) <= kMap && (!best || cost->iterations <= best->iterations)) best = cost;
+    }
+    return best;
+  }
+
+  CcpProblem problem_;
+  std::span<const double> guess_;
+  int limit_;
+  std::unique_ptr<Plugin> plugin_;
+  CcpSolver* solver_ = nullptr;
+  DelassusOperator delassus_;
+  std::vector<double> gamma_;
+  std::map<double, double> map_of_;  ///< natural map of the answer, by tolerance
+};
+
+// The mean over several problems; nothing where one of them failed.
+Row mean(const std::vector<Row>& rows) {
+  Row out;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    Cost sum;
+    bool all = true;
+    for (const Row& row : rows) {
+      all = all && row[k].has_value();
+      if (row[k]) sum.iterations += row[k]->iterations, sum.seconds += row[k]->seconds;
+    }
+    const auto count = static_cast<double>(rows.size());
+    if (all) out[k] = Cost{sum.iterations / count, sum.seconds / count};
+  }
+  return out;
+}
+
+void print(const std::string& name, const Row& row) {
+  fmt::print("| {} |", name);
+  for (const std::optional<Cost>& cost : row) {
+    if (cost) {
+      fmt::print(" {:.0f}, {:.4g} |", cost->iterations, cost->seconds);
+    } else {
+      fmt::print(" - |");
+    }
+  }
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+void measure(const PluginHost& host, const Settings& settings, const std::string& label,
+             const std::vector<Problem>& problems) {
+  std::size_t contacts = 0;
+  for (const Problem& p : problems) contacts += p.problem().contacts.size() / problems.size();
+  for (const bool warm : {false, true}) {
+    if (warm && !problems.front().record) continue;
+    fmt::print("\n{}, {}: {} problem(s), {} contacts. Iterations, seconds\n\n| solver |", label, warm ? "warm" : "cold",
+               problems.size(), contacts);
+    for (const double residual : kResiduals) fmt::print(" {:g} m/s |", residual);
+    fmt::print(" natural map {:g} |\n|---|---|---|---|---|\n", kMap);
+    for (const Method& method : methods_of(host, settings)) {
+      std::vector<Row> rows;
+      for (const Problem& p : problems) {
+        const std::span<const double> guess =
+            warm ? std::span<const double>{p.record->guess} : std::span<const double>{};
+        rows.push_back(Trial{host, method, p.problem(), guess, settings.limit}.run());
+      }
+      print(method.name, mean(rows));
+    }
+  }
+}
+
+int run(const std::vector<std::string>& arguments) {
+  PluginHost host;
+  const char* const folder = std::getenv("SCREE_PLUGIN_PATH");
+  host.search(folder != nullptr ? folder : SCREE_BENCH_PLUGINS);
+  Settings settings;
+  for (const std::string& argument : arguments) {
+    if (argument.starts_with("--only=")) {
+      settings.only = split(argument.substr(7), ',');
+    } else if (argument.starts_with("--limit=")) {
+      settings.limit = std::stoi(argument.substr(8));
+    } else {
+      const std::size_t equals = argument.find('=');
+      std::vector<Problem> problems;
+      for (const std::string& file : split(argument.substr(equals + 1), ',')) problems.push_back(read(file));
+      measure(host, settings, argument.substr(0, equals), problems);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace scree::bench
+
+int main(int argc, char** argv) { return scree::bench::run({argv + 1, argv + argc}); }
