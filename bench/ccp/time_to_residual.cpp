@@ -1,10 +1,11 @@
 // Time and iterations to stated residuals, for every solver, from zero and from the guess of a run.
 //
-//     time_to_residual [--only=NAME,...] [--limit=N] LABEL=FILE[,FILE...] ...
+//     time_to_residual [--only=NAME,...] [--limit=N] [--no-map] LABEL=FILE[,FILE...] ...
 //
 // A FILE is a bed (.txt), solved from zero, or a problem that `scree run --record-ccp` wrote (.h5), solved from zero and
 // from its guess. The files of a label are averaged. Solvers are those of the plugin folder with their defaults, and apgd
-// without its scaling ("apgd, plain"); --only=asgs takes some, NAME{KEY = VALUE} with other settings.
+// without its scaling ("apgd, plain"); --only=asgs takes some, NAME{KEY = VALUE} with other settings. A solve gets at most N
+// iterations (4000).
 //
 // To a residual: one solve with it as tolerance, the least of three if short. To the natural map: the same with the largest
 // tolerance found, by interpolation, at which the map is small enough. One thread.
@@ -37,6 +38,7 @@ constexpr double kShort = 0.5;  // solves of less are repeated [s]
 struct Settings {
   std::vector<std::string> only;
   int limit = 4000;
+  bool map = true;
 };
 
 /// A solver as asked for.
@@ -98,8 +100,8 @@ std::vector<Method> methods_of(const PluginHost& host, const Settings& settings)
 class Trial {
  public:
   Trial(const PluginHost& host, const Method& method, const CcpProblem& problem, std::span<const double> guess,
-        int limit)
-      : problem_{problem}, guess_{guess}, limit_{limit} {
+        const Settings& settings)
+      : problem_{problem}, guess_{guess}, settings_{settings} {
     const PluginEntry& entry = host.entry(CcpSolver::kKind, method.plugin, {});
     plugin_ = entry.make(options_from_text(method.toml, entry.parameters));
     solver_ = dynamic_cast<CcpSolver*>(plugin_.get());
@@ -112,7 +114,7 @@ class Trial {
       row[k] = solve(kResiduals[k]);
       if (!row[k]) return row;
     }
-    row.back() = solve_for_map();
+    if (settings_.map) row.back() = solve_for_map();
     return row;
   }
 
@@ -125,7 +127,7 @@ class Trial {
       std::copy(guess_.begin(), guess_.end(), gamma_.begin());
       SolveContext context;
       context.tolerance = tolerance;
-      context.max_iterations = limit_;
+      context.max_iterations = settings_.limit;
       const auto start = std::chrono::steady_clock::now();
       const SolveSummary summary = solver_->solve(problem_, context, gamma_);
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -166,7 +168,7 @@ class Trial {
 
   CcpProblem problem_;
   std::span<const double> guess_;
-  int limit_;
+  const Settings& settings_;
   std::unique_ptr<Plugin> plugin_;
   CcpSolver* solver_ = nullptr;
   DelassusOperator delassus_;
@@ -218,7 +220,7 @@ void measure(const PluginHost& host, const Settings& settings, const std::string
       for (const Problem& p : problems) {
         const std::span<const double> guess =
             warm ? std::span<const double>{p.record->guess} : std::span<const double>{};
-        rows.push_back(Trial{host, method, p.problem(), guess, settings.limit}.run());
+        rows.push_back(Trial{host, method, p.problem(), guess, settings}.run());
       }
       print(method.name, mean(rows));
     }
@@ -233,6 +235,8 @@ int run(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (argument.starts_with("--only=")) {
       settings.only = split(argument.substr(7), ',');
+    } else if (argument == "--no-map") {
+      settings.map = false;
     } else if (argument.starts_with("--limit=")) {
       settings.limit = std::stoi(argument.substr(8));
     } else {

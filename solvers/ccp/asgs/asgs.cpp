@@ -14,6 +14,8 @@ namespace {
 
 /// Objectives closer than this share of their size are equal: they are sums of many terms of both signs.
 constexpr double kRounding = 1e-13;
+/// Conjugate steps that fail before Nesterov's take over.
+constexpr int kFailures = 2;
 
 double sum_of(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
@@ -35,6 +37,7 @@ Mat3 inertia_of(Mat3 j) {
 Asgs::Asgs(const Options& options)
     : Asgs{AsgsOptions{.accelerated = options.boolean("accelerated"),
                        .restart = options.boolean("restart"),
+                       .conjugate = options.boolean("conjugate"),
                        .coloured = options.text("order") == "coloured",
                        .check_interval = static_cast<int>(options.integer("check_interval"))}} {}
 
@@ -43,6 +46,8 @@ std::vector<Parameter> Asgs::parameters() {
       Parameter::boolean("accelerated", "Nesterov's momentum between the sweeps; false: plain symmetric Gauss-Seidel")
           .by_default(true),
       Parameter::boolean("restart", "drop the momentum when it points against the step").by_default(true),
+      Parameter::boolean("conjugate", "begin with conjugate steps in place of Nesterov's, until they fail")
+          .by_default(true),
       Parameter::choice("order", {"serial", "coloured"},
                         "order of the contacts in a sweep; coloured lets several threads work, with another result")
           .by_default("serial"),
@@ -74,7 +79,15 @@ bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::
   prepare_inertias(problem);
   undone_ = 0;
   against_ = 0.0;
+  theta_ = 1.0, beta_ = 0.0;
   objective_ = delassus_.objective(gamma);
+  linear_ = objective_ - kinetic_energy() - block_momentum_.sums(blocks_).linear;
+  failures_ = 0;
+  conjugate_ = options_.accelerated && options_.conjugate && problem.blocks.empty() && problem.compliance.empty();
+  if (conjugate_) {
+    for (std::size_t k = 0; k < history_.size(); ++k) history_[k].y = history_[k].x_old;
+    steps_.start(contacts_.bodies(), linear_);
+  }
   return std::isfinite(objective_);
 }
 
@@ -84,9 +97,10 @@ void Asgs::prepare_inertias(const CcpProblem& problem) {
 }
 
 // Bodies and blocks go from x to y; x becomes x_old. (Contacts do so one by one, in the forward sweep.)
-void Asgs::extrapolate(double beta) {
-  block_momentum_.extrapolate(blocks_, beta);
+void Asgs::extrapolate() {
+  block_momentum_.extrapolate(blocks_, beta_);
   const std::span<sweep::Body> bodies = contacts_.bodies();
+  const double beta = beta_;
   delassus_.for_chunks(bodies.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       // Lanes 3 are constants of the body: their differences are zero.
@@ -98,16 +112,14 @@ void Asgs::extrapolate(double beta) {
   });
 }
 
-void Asgs::forward(double beta, const Executor* executor) {
+// `start` gives the impulses from which a group starts, and keeps them.
+template <class Start>
+void Asgs::forward(const Start& start, const Executor* executor) {
   contacts_.with_layout([&](const auto& layout) {
     contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
-      const Lanes momentum = Lanes{} + beta;
       for (std::size_t k = first; k < last; ++k) {
-        History& history = history_[k];
         Lanes3& g = layout.impulse(k);
-        const Lanes3 x = g;
-        g = history.y = x + momentum * (x - history.x_old);
-        history.x_old = x;
+        g = start(history_[k], g);
         layout.update(k);
       }
     });
@@ -130,23 +142,75 @@ void Asgs::backward(const Executor* executor) {
 }
 
 // From x to the next iterate. The objective is known after both sweeps only.
-void Asgs::advance(double beta, bool both, const Executor* executor) {
-  extrapolate(beta);
-  blocks_.sweep(false);
-  forward(beta, executor);
+void Asgs::advance(bool both, const Executor* executor) {
+  if (conjugate_) {
+    steps_.go(contacts_.bodies(), delassus_);
+    const Lanes a = Lanes{} + steps_.a(), b = Lanes{} + steps_.b();
+    forward(
+        [a, b](History& history, const Lanes3& z) {
+          const Lanes3 y = history.y;
+          history.y = y + a * (z - y) + b * (y - history.x_old);
+          history.x_old = y;
+          return history.y;
+        },
+        executor);
+  } else {
+    extrapolate();
+    blocks_.sweep(false);
+    const Lanes momentum = Lanes{} + beta_;
+    forward(
+        [momentum](History& history, const Lanes3& x) {
+          history.y = x + momentum * (x - history.x_old);
+          history.x_old = x;
+          return history.y;
+        },
+        executor);
+  }
   if (!both) return;
   backward(executor);
   blocks_.sweep(true);
   against_ = block_momentum_.sums(blocks_).against;
-  for (const AsgsSums& s : sums_) against_ += s.against;
-  objective_ = objective();
+  linear_old_ = linear_;
+  linear_ = 0.0;
+  for (const AsgsSums& s : sums_) against_ += s.against, linear_ += s.linear;
+  objective_ = conjugate_ ? steps_.measure(contacts_.bodies(), inertia_, delassus_) + linear_ : objective();
 }
 
-// Of the state after a backward sweep.
-double Asgs::objective() {
-  double linear = block_momentum_.sums(blocks_).linear;
-  for (const AsgsSums& s : sums_) linear += s.linear;
-  return kinetic_energy() + linear;
+double Asgs::objective() { return kinetic_energy() + block_momentum_.sums(blocks_).linear + linear_; }
+
+// Where the next pair starts.
+void Asgs::plan(bool uphill) {
+  if (conjugate_) {
+    const bool good = !uphill && steps_.choose(linear_);
+    if (good) return;
+    steps_.plain();
+    conjugate_ = !uphill && ++failures_ < kFailures;
+    return;  // momentum starts from none
+  }
+  const double next = 0.5 * theta_ * (std::sqrt(theta_ * theta_ + 4.0) - theta_);
+  beta_ = options_.accelerated ? theta_ * (1.0 - theta_) / (theta_ * theta_ + next) : 0.0;
+  theta_ = next;
+  if (uphill || (options_.restart && against_ > 0.0)) theta_ = 1.0, beta_ = 0.0;
+}
+
+// After a pair that ended uphill; `before` is the objective that it began with.
+void Asgs::go_back(double before) {
+  if (conjugate_) {
+    return_to_best();
+    ++undone_;
+  } else if (beta_ > 0.0) {
+    undo();
+    objective_ = before;
+  }
+}
+
+// What was best at the looks lies below the start: all pairs before this one went downhill.
+void Asgs::return_to_best() {
+  contacts_.set_impulses(x_best_);
+  delassus_.body_velocities(x_best_, w_);
+  contacts_.set_velocities(w_);
+  objective_ = delassus_.objective(x_best_);
+  linear_ = objective_ - kinetic_energy();
 }
 
 // Back to where the last pair came from.
@@ -156,6 +220,7 @@ void Asgs::undo() {
   });
   std::copy(old_.begin(), old_.end(), contacts_.bodies().begin());
   block_momentum_.undo(blocks_);
+  linear_ = linear_old_;
   ++undone_;
 }
 
@@ -195,14 +260,22 @@ double Asgs::residual(std::span<double> gamma) {
 // the same correction, so that the momentum stays.
 void Asgs::refresh() {
   const std::span<sweep::Body> bodies = contacts_.bodies();
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    old_[k].linear -= bodies[k].linear;
-    old_[k].angular -= bodies[k].angular;
-  }
-  contacts_.set_velocities(w_);
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    old_[k].linear += bodies[k].linear;
-    old_[k].angular += bodies[k].angular;
+  if (conjugate_) {
+    std::copy(bodies.begin(), bodies.end(), old_.begin());  // free for this
+    contacts_.set_velocities(w_);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      steps_.correct(k, bodies[k].linear - old_[k].linear, bodies[k].angular - old_[k].angular);
+    }
+  } else {
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      old_[k].linear -= bodies[k].linear;
+      old_[k].angular -= bodies[k].angular;
+    }
+    contacts_.set_velocities(w_);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      old_[k].linear += bodies[k].linear;
+      old_[k].angular += bodies[k].angular;
+    }
   }
   block_momentum_.refresh(blocks_, x_);
   objective_ = objective();
@@ -229,20 +302,16 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
   SolveSummary summary{SolveStatus::iteration_limit, 0, std::numeric_limits<double>::infinity()};
   if (guess_residual <= context.tolerance) summary.residual = guess_residual;
   StallWatch watch{problem.r};
-  double theta = 1.0, beta = 0.0;
   int next_look = 2;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
     const double before = objective_;
     const bool both = summary.iterations + 2 <= context.max_iterations;
-    if (!both) beta = 0.0;  // a single sweep is no step that momentum could follow
-    advance(beta, both, context.executor);
+    if (!both) beta_ = 0.0, steps_.plain();  // a single sweep is no step that momentum could follow
+    advance(both, context.executor);
     const int first = summary.iterations + 1;
     summary.iterations += both ? 2 : 1;
     const bool uphill = both && !(objective_ <= before + kRounding * std::abs(before));
-    if (uphill && beta > 0.0) {
-      undo();
-      objective_ = before;
-    }
+    if (uphill) go_back(before);
     const bool looking = summary.iterations >= next_look || summary.iterations == context.max_iterations;
     if (looking) {
       look(summary);
@@ -259,10 +328,7 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
       summary.status = SolveStatus::stalled;
       break;
     }
-    const double theta_next = 0.5 * theta * (std::sqrt(theta * theta + 4.0) - theta);
-    beta = options_.accelerated ? theta * (1.0 - theta) / (theta * theta + theta_next) : 0.0;
-    theta = theta_next;
-    if (uphill || (options_.restart && against_ > 0.0)) theta = 1.0, beta = 0.0;
+    plan(uphill);
   }
   std::copy(x_best_.begin(), x_best_.end(), gamma.begin());
   if (std::isinf(summary.residual)) summary.residual = guess_residual;  // no sweep was made

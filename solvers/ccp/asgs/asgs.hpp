@@ -12,6 +12,10 @@
 // the one before; where the accelerated pair would, it is undone and a plain one
 // follows, whose every update goes downhill.
 //
+// Problems of contacts without compliance begin with conjugate steps
+// (conjugate_steps.hpp) in place of Nesterov's, until these fail twice, or once
+// end uphill.
+//
 // Glossary: x, the iterate; y = x + beta (x - x_old), where a pair starts; w = M^-1
 // D x, the body velocities, which obey the same linear combination, so that
 // starting from y needs no product; d, the diagonal metric of the local steps.
@@ -24,6 +28,7 @@
 #include <vector>
 
 #include "block_momentum.hpp"
+#include "conjugate_steps.hpp"
 #include "scree/ccp/delassus.hpp"
 #include "scree/ccp/sweep/block_sweep.hpp"
 #include "scree/ccp/sweep/contact_sweep.hpp"
@@ -36,6 +41,7 @@ namespace scree {
 struct AsgsOptions {
   bool accelerated = true;  ///< false: plain symmetric Gauss-Seidel
   bool restart = true;      ///< drop the momentum when it points against the step
+  bool conjugate = true;    ///< begin with conjugate steps
   bool coloured = false;    ///< order by colours, for several threads
   int check_interval = 10;  ///< sweeps between two computations of the residual
 };
@@ -54,17 +60,21 @@ class Asgs final : public CcpSolver {
   [[nodiscard]] int undone() const { return undone_; }
 
  private:
-  /// Of the contacts of one group [N s].
+  /// Of the contacts of one group [N s]. With conjugate steps x_old is the y before.
   struct History {
     Lanes3 x_old, y;
   };
   bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
   void prepare_inertias(const CcpProblem& problem);
-  void extrapolate(double beta);
-  void forward(double beta, const Executor* executor);
+  void extrapolate();
+  template <class Start>
+  void forward(const Start& start, const Executor* executor);
   void backward(const Executor* executor);
-  void advance(double beta, bool both, const Executor* executor);
+  void advance(bool both, const Executor* executor);
+  void plan(bool uphill);
+  void go_back(double before);
   void undo();
+  void return_to_best();
   double kinetic_energy();
   double objective();
   double residual(std::span<double> gamma);
@@ -83,8 +93,14 @@ class Asgs final : public CcpSolver {
   std::vector<double> partial_;
   std::vector<double> x_, x_best_;  ///< impulses [N s]
   std::vector<Twist> w_;
-  double objective_ = 0.0;  ///< of the groups' impulses [J]
-  double against_ = 0.0;    ///< sum of the last pair [J]
+  ConjugateSteps steps_;
+  bool conjugate_ = false;           ///< steps_ decides where the next pair starts, else beta_
+  int failures_ = 0;                 ///< of steps_
+  double theta_ = 1.0, beta_ = 0.0;  ///< Nesterov's
+  double objective_ = 0.0;           ///< of the groups' impulses [J]
+  double linear_ = 0.0,
+         linear_old_ = 0.0;  ///< the contacts' part of it that is no kinetic energy; and before the last pair [J]
+  double against_ = 0.0;     ///< sum of the last pair [J]
   int undone_ = 0;
 };
 

@@ -1,0 +1,105 @@
+#include "conjugate_steps.hpp"
+
+#include "scree/math/mat3.hpp"
+
+namespace scree {
+namespace {
+
+/// Directions closer to parallel than this share of their lengths' square span no plane.
+constexpr double kParallel = 1e-12;
+
+/// A body's share in products of the masses' norm.
+class Weight {
+ public:
+  Weight(const sweep::Body& body, const Mat3* inertia) : inertia_{inertia} {
+    if (body.linear[3] > 0.0) mass_ = 1.0 / body.linear[3];
+    if (inertia == nullptr && body.angular[3] > 0.0) moment_ = 1.0 / body.angular[3];
+  }
+  [[nodiscard]] double operator()(const sweep::Body& p, const sweep::Body& q) const {
+    const Vec3 angular{q.angular[0], q.angular[1], q.angular[2]};
+    const Vec3 turned = inertia_ != nullptr ? *inertia_ * angular : moment_ * angular;
+    return mass_ * (p.linear[0] * q.linear[0] + p.linear[1] * q.linear[1] + p.linear[2] * q.linear[2]) +
+           dot(Vec3{p.angular[0], p.angular[1], p.angular[2]}, turned);
+  }
+
+ private:
+  const Mat3* inertia_;
+  double mass_ = 0.0, moment_ = 0.0;
+};
+
+sweep::Body difference(const sweep::Body& p, const sweep::Body& q) {
+  return {p.linear - q.linear, p.angular - q.angular};
+}
+
+}  // namespace
+
+void ConjugateSteps::start(std::span<const sweep::Body> bodies, double linear) {
+  y_.assign(bodies.begin(), bodies.end());
+  old_ = y_;
+  partial_.assign(Executor::chunk_count(bodies.size(), DelassusOperator::kGrain), Products{});
+  linear_z_ = linear_y_ = linear_old_ = linear;
+  plain();
+}
+
+double ConjugateSteps::measure(std::span<const sweep::Body> bodies, std::span<const Mat3> inertia,
+                               const DelassusOperator& delassus) {
+  const std::size_t n = delassus.problem().bodies();  // those that follow stand for none
+  delassus.for_chunks(n, [&](std::size_t first, std::size_t last) {
+    Products sum{};
+    for (std::size_t k = first; k < last; ++k) {
+      const Weight product{bodies[k], inertia.empty() ? nullptr : &inertia[k]};
+      const sweep::Body d = difference(bodies[k], y_[k]), p = difference(y_[k], old_[k]);
+      sum[0] += product(d, d);
+      sum[1] += product(d, p);
+      sum[2] += product(p, p);
+      sum[3] += product(y_[k], d);
+      sum[4] += product(y_[k], p);
+      sum[5] += product(bodies[k], bodies[k]);
+    }
+    partial_[first / DelassusOperator::kGrain] = sum;
+  });
+  products_ = {};
+  for (const Products& part : partial_) {
+    for (std::size_t i = 0; i < part.size(); ++i) products_[i] += part[i];
+  }
+  return 0.5 * products_[5];
+}
+
+bool ConjugateSteps::choose(double linear) {
+  linear_z_ = linear;
+  const auto [dd, dp, pp, yd, yp, zz] = products_;
+  const double along_d = yd + linear_z_ - linear_y_, along_p = yp + linear_y_ - linear_old_;
+  const double determinant = dd * pp - dp * dp;
+  if (determinant > kParallel * dd * pp) {
+    a_ = (along_p * dp - along_d * pp) / determinant;
+    b_ = (along_d * dp - along_p * dd) / determinant;
+  } else {
+    a_ = dd > 0.0 ? -along_d / dd : 0.0;
+    b_ = 0.0;
+  }
+  return a_ >= 1.0 && std::isfinite(a_) && std::isfinite(b_);
+}
+
+void ConjugateSteps::go(std::span<sweep::Body> bodies, const DelassusOperator& delassus) {
+  delassus.for_chunks(bodies.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      // Lanes 3 are constants of the body: their differences are zero.
+      const sweep::Body y = y_[k], d = difference(bodies[k], y), p = difference(y, old_[k]);
+      bodies[k] = {y.linear + a_ * d.linear + b_ * p.linear, y.angular + a_ * d.angular + b_ * p.angular};
+      old_[k] = y;
+      y_[k] = bodies[k];
+    }
+  });
+  const double next = linear_y_ + a_ * (linear_z_ - linear_y_) + b_ * (linear_y_ - linear_old_);
+  linear_old_ = linear_y_;
+  linear_y_ = next;
+}
+
+void ConjugateSteps::correct(std::size_t k, const Lanes& linear, const Lanes& angular) {
+  for (std::vector<sweep::Body>* bodies : {&y_, &old_}) {
+    (*bodies)[k].linear += linear;
+    (*bodies)[k].angular += angular;
+  }
+}
+
+}  // namespace scree
