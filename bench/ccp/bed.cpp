@@ -147,4 +147,12 @@ BedProblem::BedProblem(const Bed& bed) {
   assembly_.build({view, free, angular}, contacts_of(bed), materials, {.recovery_speed = 0.0}, kStep, Executor{1});
 }
 
+std::vector<std::uint32_t> BedProblem::found() const {
+  std::vector<std::uint32_t> order;
+  for (std::size_t k = 0; k < assembly_.contacts().size(); ++k) {
+    order.push_back(static_cast<std::uint32_t>(assembly_.first_row(k) / 3));
+  }
+  return order;
+}
+
 }  // namespace scree::bench

@@ -34,7 +34,7 @@ class BedProblem {
   /// Walls and spheres by number in the problem.
   [[nodiscard]] std::span<const BodyIndex> bodies() const { return assembly_.bodies(); }
   /// The problem's contacts in the order in which they were found: by body, and by the other body.
-  [[nodiscard]] std::span<const std::uint32_t> found() const { return assembly_.block_of(); }
+  [[nodiscard]] std::vector<std::uint32_t> found() const;
 
  private:
   dvi::ContactAssembly assembly_;

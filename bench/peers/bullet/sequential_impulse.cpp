@@ -93,9 +93,6 @@ std::vector<std::uint32_t> file_order(std::span<const BodyIndex> bodies) {
   return order;
 }
 
-// Contacts by the bodies' order in the file.
-std::vector<std::uint32_t> found_order(std::span<const std::uint32_t> found) { return {found.begin(), found.end()}; }
-
 void report(const CcpProblem& problem, std::vector<Contender>& contenders, int repeats) {
   for (int k = 0; k < repeats; ++k) {
     for (Contender& c : contenders) {
@@ -131,7 +128,7 @@ int run(const char* file, int repeats) {
 
   Scree pgs{host, problem, ""}, coloured{host, problem, "order = \"coloured\""};
   BulletGroup one{problem, free, kStep, {}}, two{problem, free, kStep, {.two_directions = true}};
-  BulletGroup as_read{problem, free, kStep, {true, file_order(made.bodies()), found_order(made.found())}};
+  BulletGroup as_read{problem, free, kStep, {true, file_order(made.bodies()), made.found()}};
   const auto of = [](const char* name, auto& with) {
     return Contender{name, [&with](int n) { return with.solve(n); }, [&with] { return with.impulses(); }, {}, {}};
   };
