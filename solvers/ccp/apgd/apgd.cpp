@@ -53,7 +53,6 @@ void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::
   y_ = product_;
   product_y_ = product_;
   partial_.resize(std::max(packed_.runs(), packed_.body_chunks()));
-  looks_.resize(packed_.runs());
   theta_ = 1.0, beta_ = 0.0;
   step_ = 1.0;
   last_gain_ = 0;

@@ -53,11 +53,6 @@ class Apgd final : public CcpSolver {
 
  private:
   using Sums = apgd::Sums;
-  /// What a look finds in a run.
-  struct Look {
-    double residual = 0.0;  ///< [m/s]
-    double linear = 0.0;    ///< r^T x [J]
-  };
 
   void prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
   void start();
@@ -75,7 +70,6 @@ class Apgd final : public CcpSolver {
   double residual();
   /// Of x_ [J], once its residual has been computed.
   [[nodiscard]] double objective() const { return 0.5 * quadratic_ + linear_; }
-  Look look_at(const packed::Run& run) const;
   SolveStatus descend(const SolveContext& context, SolveSummary& summary);
 
   ApgdOptions options_;
@@ -86,7 +80,6 @@ class Apgd final : public CcpSolver {
   std::vector<double> product_, product_old_;  ///< N x, N x_old of problems with a matrix [m/s]
   std::vector<double> y_, product_y_;          ///< y and N y of such problems
   std::vector<Sums> partial_;
-  std::vector<Look> looks_;
   double theta_ = 1.0, beta_ = 0.0;  ///< of the next step [1]
   double spread_ = -1.0;             ///< beta of the y whose velocities the slots have; below zero: of none
   double step_ = 1.0;                ///< t [1]

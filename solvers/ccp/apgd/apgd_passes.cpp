@@ -9,9 +9,6 @@ namespace scree {
 
 namespace {
 
-/// Groups that slots are asked for in advance.
-constexpr std::size_t kAhead = 8;
-
 packed::Twists beyond(const packed::Twists& p, const packed::Twists& old, double beta) {
   return p + packed::all(beta) * (p - old);
 }
@@ -20,38 +17,19 @@ packed::Twists beyond(const packed::Twists& p, const packed::Twists& old, double
 
 // Body sums of the guess: those of a pass that ends there.
 void Apgd::start() {
-  const CcpProblem& problem = packed_.problem();
-  packed_.for_runs([&](const packed::Run& run) {
-    apgd::LaneSums lanes;
-    Sums sums;
-    for (std::size_t at = run.first_group; at < run.last_group; ++at) {
-      const Lanes3& x = x_.contacts[at];
-      packed::add_impulse(packed_.group(at), x, packed_.slots());
-      if (packed_.compliant()) lanes.quadratic += dot(x, packed::comply(packed_.group(at), packed_.compliance(at), x));
-    }
-    if (!packed_.has_matrix()) {
-      for (std::size_t k = run.first_block; k < run.last_block; ++k) {
-        const CcpBlock& block = problem.blocks[k];
-        const std::span<const double> x = std::span{x_.rows}.subspan(block.first_row, block.rows);
-        packed_.add_impulse(k, x);
-        sums.quadratic += packed_.block_compliance(k, x);
-      }
-    }
-    sums += lanes.total();
-    partial_[run.index] = sums;
-  });
+  packed_.load(x_);
   Sums sums;
-  for (std::size_t k = 0; k < packed_.runs(); ++k) sums += partial_[k];
   if (packed_.has_matrix()) {
     delassus_.row_velocities({}, x_.rows, product_);
     product_old_ = product_;
     for (std::size_t i = 0; i < product_.size(); ++i) sums.quadratic += x_.rows[i] * product_[i];
     spread_ = -1.0;
   } else {
-    sums += body_pass(0.0);
+    sums = body_pass(0.0);
     p_.swap(p_old_);
     p_old_ = p_;
     spread_ = 0.0;
+    if (packed_.compliant()) sums.quadratic += packed_.compliance(x_);
   }
   quadratic_ = sums.quadratic;
 }
@@ -77,7 +55,7 @@ Apgd::Sums Apgd::contact_range(const packed::Run& run) {
   packed::Slot* const slots = packed_.slots();
   const double beta = beta_, step = step_;
   for (std::size_t at = run.first_group; at < run.last_group; ++at) {
-    if (at + kAhead < run.last_group) packed::prefetch(packed_.group(at + kAhead), slots);
+    if (at + packed::kAhead < run.last_group) packed::prefetch(packed_.group(at + packed::kAhead), slots);
     x_old_.contacts[at] = apgd::step<compliant>(packed_.group(at), compliant ? &packed_.compliance(at) : nullptr,
                                                 x_.contacts[at], x_old_.contacts[at], beta, step, slots, sums);
   }
@@ -169,42 +147,12 @@ Apgd::Sums Apgd::matrix_pass() {
   return sums;
 }
 
-// At x_, for the velocities of x_ in the slots.
-Apgd::Look Apgd::look_at(const packed::Run& run) const {
-  const CcpProblem& problem = packed_.problem();
-  Look look;
-  Lanes linear{};
-  for (std::size_t at = run.first_group; at < run.last_group; ++at) {
-    if (at + kAhead < run.last_group) packed::prefetch(packed_.group(at + kAhead), packed_.slots());
-    const Lanes3& x = x_.contacts[at];
-    Lanes3 u = packed::contact_velocity(packed_.group(at), packed_.slots());
-    if (packed_.compliant()) u = u + packed::comply(packed_.group(at), packed_.compliance(at), x);
-    look.residual = std::max(look.residual, packed_.group_residual(at, x, u));
-    linear += dot(packed_.group(at).r, x);
-  }
-  look.linear = packed::total(linear);
-  for (std::size_t block = run.first_block; block < run.last_block; ++block) {
-    const std::size_t row = problem.blocks[block].first_row, rows = problem.blocks[block].rows;
-    const std::span<const double> x = std::span{x_.rows}.subspan(row, rows);
-    BlockVector u{};
-    block_gradient(block, x, std::span{u}.first(rows));
-    look.residual = std::max(look.residual, packed_.block_residual(block, x, std::span{u}.first(rows)));
-    for (std::size_t k = 0; k < rows; ++k) look.linear += problem.r[problem.contact_rows() + row + k] * x[k];
-  }
-  return look;
-}
-
 // ccp_residual() of x_, and its part of the objective.
 double Apgd::residual() {
   if (spread_ != 0.0) move_to(0.0);
-  packed_.for_runs([&](const packed::Run& run) { looks_[run.index] = look_at(run); });
-  double worst = 0.0;
-  linear_ = 0.0;
-  for (const Look& look : looks_) {
-    worst = std::max(worst, look.residual);
-    linear_ += look.linear;
-  }
-  return worst;
+  const packed::Look look = packed_.look(x_, product_);
+  linear_ = look.linear;
+  return look.residual;
 }
 
 }  // namespace scree

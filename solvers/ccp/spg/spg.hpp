@@ -1,9 +1,9 @@
 // Spectral projected gradient for cone complementarity problems (Birgin,
 // Martinez, Raydan 2000, SIAM J. Optim. 10:1196, algorithm SPG2; steps: Barzilai,
-// Borwein 1988).
+// Borwein 1988; each used several times: Dai, Hager, Schittkowski, Zhang 2006).
 //
-// Glossary: x, the iterate [N s]; u = N x + r, the gradient [m/s]; D = diag(d_n,
-// d_t, d_t) per contact, the metric [1/kg]; P, the projection on the cones in the
+// Glossary: x, the iterate [N s]; u = N x + r, the gradient [m/s]; D, a diagonal
+// metric made of the diagonal of N [1/kg]; P, the projection on the cones in the
 // metric; alpha, the spectral step [1]; lambda, that of the line search [1]; w =
 // M^-1 D_J x, body velocities (D_J: the Jacobian); v = M^-1 D_J d.
 //
@@ -12,16 +12,17 @@
 //
 // An iteration makes one product N d, and with BB1 not even all of it: d^T N d =
 // v^T M v is a sum over bodies, and the next gradient comes from w. So it is one
-// pass over the contacts, which finishes the step before, takes the gradient,
+// pass over the units, which finishes the step before, takes the gradient,
 // makes d and adds it up for the bodies, and one over the bodies. BB2 needs N d
-// at the contacts: a second, lighter pass.
+// at the contacts: a second, lighter pass. With an explicit matrix N x follows x
+// as w does.
 #pragma once
 
 #include <vector>
 
+#include "contact_direction.hpp"
 #include "line_search.hpp"
-#include "scree/ccp/cone3.hpp"
-#include "scree/ccp/delassus.hpp"
+#include "scree/ccp/packed/packed_problem.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 
@@ -29,10 +30,11 @@ namespace scree {
 
 /// What a scene can say about spg.
 struct SpgOptions {
-  enum class Scaling { block, contact, none };  ///< d of normal and tangents; one d a contact; one d for all
-  enum class Step { bb1, bb2, alternating };    ///< the spectral step; alternating: BB1, BB2, BB1...
+  using Scaling = packed::Scaling;
+  enum class Step { bb1, bb2, alternating };  ///< the spectral step; alternating: BB1, BB2, BB1...
   Scaling scaling = Scaling::block;
   Step step = Step::alternating;
+  int hold = 2;             ///< iterations that use one spectral step
   int memory = 10;          ///< iterates that the line search compares with; 1: monotone
   int check_interval = 10;  ///< iterations between two computations of the residual
 };
@@ -46,49 +48,47 @@ class Spg final : public CcpSolver {
   static std::vector<Parameter> parameters();
 
   SolveSummary solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) override;
+  void release_workspace() override;
 
   /// Trials that the line search refused in the last solve.
   [[nodiscard]] int reductions() const { return search_.reductions(); }
 
  private:
-  /// The metric of a contact.
-  struct Metric {
-    double normal = 0.0;   ///< 1 / d_n [kg]
-    double tangent = 0.0;  ///< 1 / d_t [kg]
-    ConeWeights weights;
-  };
-  /// Sums over a pass [J].
-  struct Sums {
-    double slope = 0.0;      ///< u^T d
-    double distance = 0.0;   ///< d^T D d
-    double curvature = 0.0;  ///< d^T N d
-    Sums& operator+=(const Sums& o);
-  };
+  using Sums = spg::Sums;
 
-  bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
-  void prepare_metric(const CcpProblem& problem);
-  template <bool compliant>
-  Sums contact_range(std::size_t first, std::size_t last);
-  Sums contact_pass();
-  double body_pass();
-  double product_norm();
+  void prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
+  SolveStatus descend(const SolveContext& context, SolveSummary& summary);
   bool iterate(int iteration);
+  void choose_step(int iteration, const Sums& sums);
+  double look(SolveSummary& summary, double tolerance);
+
+  template <bool compliant>
+  Sums contact_range(const packed::Run& run);
+  Sums block_range(const packed::Run& run);
+  Sums unit_pass();
+  double body_pass();
+  double matrix_pass();
+  void move_slots();
+  double product_norm();
+  double product_norm_of(const packed::Run& run);
   void finish_step();
   void refresh();
-  double look(SolveSummary& summary, double tolerance);
 
   SpgOptions options_;
   DelassusOperator delassus_;
+  packed::PackedProblem packed_;
   spg::LineSearch search_;
-  std::vector<Metric> metric_;
-  std::vector<double> x_, d_, x_best_;  ///< impulses, direction [N s]
-  std::vector<Twist> w_, v_, slots_;
+  packed::Impulses x_, d_, x_best_;          ///< impulses, direction [N s]
+  std::vector<packed::Twists> w_, v_;        ///< of four bodies each
+  std::vector<double> product_, product_d_;  ///< N x, N d of problems with a matrix [m/s]
   std::vector<Sums> sums_;
   std::vector<double> partial_;
   double alpha_ = 1.0;
-  double pending_ = 0.0;  ///< lambda that x has not moved by yet [1]
+  double pending_ = 0.0;  ///< lambda that x and w have not moved by yet; the slots have [1]
   int looks_ = 0;
-  bool fresh_ = true;  ///< w was made from x, not updated
+  int last_gain_ = 0;           ///< iteration of the last look that found a much smaller residual
+  double gain_residual_ = 0.0;  ///< that residual [m/s]
+  bool fresh_ = true;           ///< w was made from x, not updated
 };
 
 }  // namespace scree

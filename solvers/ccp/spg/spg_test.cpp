@@ -11,8 +11,7 @@ using Step = SpgOptions::Step;
 INSTANTIATE_TEST_SUITE_P(
     spg, CcpSolverConformance,
     testing::Values(SolverCase{"block", [] { return std::make_unique<Spg>(SpgOptions{}); }},
-                    SolverCase{"contact",
-                               [] { return std::make_unique<Spg>(SpgOptions{.scaling = Scaling::contact}); }},
+                    SolverCase{"contact", [] { return std::make_unique<Spg>(SpgOptions{.scaling = Scaling::unit}); }},
                     SolverCase{"none", [] { return std::make_unique<Spg>(SpgOptions{.scaling = Scaling::none}); }},
                     SolverCase{"bb2", [] { return std::make_unique<Spg>(SpgOptions{.step = Step::bb2}); }},
                     SolverCase{"bb1", [] { return std::make_unique<Spg>(SpgOptions{.step = Step::bb1}); }},

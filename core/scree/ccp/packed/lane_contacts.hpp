@@ -15,6 +15,9 @@
 
 namespace scree::packed {
 
+/// Groups that a pass asks for in advance.
+inline constexpr std::size_t kAhead = 8;
+
 using Floats = float __attribute__((vector_size(16)));
 
 /// Four contacts: 120 bytes each. A lane without a contact is all zero but for m_n and m_t, which are 1, and its slots,
@@ -59,10 +62,15 @@ inline Metric metric_of(const Group& group) {
   return {widen(group.m_n), widen(group.m_t), widen(one / group.m_n), widen(one / group.m_t)};
 }
 
+/// v_b - v_a, for the velocities of the slots.
+inline Lanes3 relative_velocity(const Group& group, const Slot* slots) {
+  const Twists a = gather(slots, group.a), b = gather(slots, group.b);
+  return (b.linear + cross(b.angular, group.arm_b)) - (a.linear + cross(a.angular, group.arm_a));
+}
+
 /// u, for the velocities of the slots.
 inline Lanes3 contact_velocity(const Group& group, const Slot* slots) {
-  const Twists a = gather(slots, group.a), b = gather(slots, group.b);
-  return (b.linear + cross(b.angular, group.arm_b)) - (a.linear + cross(a.angular, group.arm_a)) + group.r;
+  return relative_velocity(group, slots) + group.r;
 }
 
 /// Asks for the slots of a group that a pass comes to soon: there are too many to wait for.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
@@ -53,6 +52,7 @@ void PackedProblem::build(const DelassusOperator& delassus, Scaling scaling) {
   slots_.assign(delassus.partition().slot_count(), Slot{});
   row_mass_.resize(p.rows() - p.contact_rows());
   block_metric_.resize(p.blocks.size());
+  looks_.resize(runs());
   build_bodies();
   double mean = 0.0;
   for (const double trace : delassus.traces()) mean += trace;
@@ -160,15 +160,20 @@ void PackedProblem::project(std::size_t block, std::span<double> g) const {
   project_block(problem().blocks[block], block_metric_[block], g);
 }
 
-void PackedProblem::block_velocity(std::size_t block, std::span<const double> x, std::span<double> u) const {
+void PackedProblem::block_product(std::size_t block, std::span<const double> x, std::span<double> product) const {
   const CcpProblem& p = problem();
   const CcpBlock& b = p.blocks[block];
   const SlotPair slot = delassus_->partition().slots()[p.contacts.size() + block];
-  relative_velocity(jacobian_of(p, b), slots_[slot.a].velocity, slots_[slot.b].velocity, u);
-  const std::size_t row = first_row(p, b);
-  for (std::size_t k = 0; k < b.rows; ++k) u[k] += p.r[row + k];
+  scree::relative_velocity(jacobian_of(p, b), slots_[slot.a].velocity, slots_[slot.b].velocity, product);
   if (!compliant()) return;
-  for (std::size_t k = 0; k < b.rows; ++k) u[k] += p.compliance[row + k] * x[k];
+  const std::size_t row = first_row(p, b);
+  for (std::size_t k = 0; k < b.rows; ++k) product[k] += p.compliance[row + k] * x[k];
+}
+
+void PackedProblem::block_velocity(std::size_t block, std::span<const double> x, std::span<double> u) const {
+  block_product(block, x, u);
+  const std::span<const double> r = scree::rows_of(problem(), problem().blocks[block], problem().r);
+  for (std::size_t k = 0; k < r.size(); ++k) u[k] += r[k];
 }
 
 double PackedProblem::block_compliance(std::size_t block, std::span<const double> d) const {
@@ -211,21 +216,6 @@ void PackedProblem::unpack(const Impulses& x, std::span<double> gamma) const {
     }
   });
   std::copy(x.rows.begin(), x.rows.end(), gamma.begin() + static_cast<std::ptrdiff_t>(p.contact_rows()));
-}
-
-double PackedProblem::block_residual(std::size_t block, std::span<const double> x, std::span<const double> u) const {
-  const CcpProblem& p = problem();
-  const CcpBlock& b = p.blocks[block];
-  const double trace = delassus_->traces()[p.contacts.size() + block];
-  if (!(trace > 0.0)) return 0.0;
-  const double s = b.rows / trace;
-  BlockVector z{};
-  for (std::size_t k = 0; k < b.rows; ++k) z[k] = x[k] - s * u[k];
-  project_block(b, std::span{z}.first(b.rows));
-  double sum = 0.0;
-  for (std::size_t k = 0; k < b.rows; ++k) sum += (x[k] - z[k]) * (x[k] - z[k]);
-  const double error = std::sqrt(sum) / s;
-  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
 void PackedProblem::clear_sinks() {

@@ -30,6 +30,12 @@ struct Impulses {
   }
 };
 
+/// What a look at impulses x finds.
+struct Look {
+  double residual = 0.0;  ///< the judge's [m/s]
+  double linear = 0.0;    ///< r^T x [J]
+};
+
 /// The units of a run: groups of contacts first_group .. last_group - 1, then blocks first_block .. last_block - 1.
 struct Run {
   std::size_t index = 0;
@@ -62,6 +68,8 @@ class PackedProblem {
   void project(std::size_t block, std::span<double> g) const;
   /// u of a block for the velocities of its slots and the impulse x that goes with them, r included [m/s].
   void block_velocity(std::size_t block, std::span<const double> x, std::span<double> u) const;
+  /// N x of a block, for the velocities of x in its slots [m/s].
+  void block_product(std::size_t block, std::span<const double> x, std::span<double> product) const;
   /// d^T E d of a block [J].
   [[nodiscard]] double block_compliance(std::size_t block, std::span<const double> d) const;
   /// Puts the impulse g on the slots of the block.
@@ -77,6 +85,14 @@ class PackedProblem {
     return greatest(natural_map(groups_[at], scale_[at], x, u));
   }
   [[nodiscard]] double block_residual(std::size_t block, std::span<const double> x, std::span<const double> u) const;
+  /// What there is to say of x when the slots have its velocities, or `product` is N x.
+  Look look(const Impulses& x, std::span<const double> product);
+
+  /// x^T E x [J].
+  [[nodiscard]] double compliance(const Impulses& x) const;
+
+  /// Puts x on the slots.
+  void load(const Impulses& x);
 
   /// Runs body(run) for every run of units.
   template <class Body>
@@ -114,6 +130,7 @@ class PackedProblem {
   void build_run(std::size_t first, std::size_t last, Scaling scaling, double mean);
   void put_contact(std::size_t contact, std::size_t at, std::size_t lane, Scaling scaling, double mean);
   void build_block(std::size_t block, Scaling scaling, double mean);
+  Look look_at(const Run& run, const Impulses& x, std::span<const double> product) const;
 
   const DelassusOperator* delassus_ = nullptr;
   std::vector<Group> groups_;
@@ -124,6 +141,7 @@ class PackedProblem {
   std::vector<Slot> slots_;
   std::vector<double> row_mass_;  ///< of blocks [kg]
   std::vector<BlockMetric> block_metric_;
+  std::vector<Look> looks_;  ///< per run
 };
 
 }  // namespace scree::packed
