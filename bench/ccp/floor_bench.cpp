@@ -1,6 +1,6 @@
 // What memory allows, and what the solvers make of it.
 //
-//     floor_bench floor [SOLVER]       one thread: an iteration against its floor
+//     floor_bench floor [SOLVER [OPTIONS]]   one thread: an iteration against its floor
 //     floor_bench threads    two threads against the best serial variant, beside the gain of a plain copy
 //     floor_bench memory [CONTACTS]    bytes a contact of each solver, peak resident set of all that solves such a problem
 //
@@ -16,12 +16,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <functional>
-#include <string>
+#include <memory>
+#include <span>
 #include <string_view>
 
 #include "bed.hpp"
-#include "scree/base/release.hpp"
 #include "scree/config/validate.hpp"
 #include "scree/host/plugin_host.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
@@ -38,6 +37,8 @@ struct Variant {
   const char* plugin;
   const char* toml;
 };
+
+constexpr Variant kSerial[] = {{"apgd", "apgd", ""}, {"spg", "spg", ""}, {"pgs", "pgs", ""}, {"asgs", "asgs", ""}};
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -66,7 +67,7 @@ std::unique_ptr<CcpSolver> make_solver(const Variant& variant) {
   std::unique_ptr<Plugin> made = entry.make(options_from_text(variant.toml, entry.parameters));
   auto* const solver = dynamic_cast<CcpSolver*>(made.get());
   if (solver == nullptr) throw std::runtime_error{fmt::format("{} is no solver", variant.plugin)};
-  made.release();
+  static_cast<void>(made.release());
   return std::unique_ptr<CcpSolver>{solver};
 }
 
@@ -109,7 +110,7 @@ double floor_bytes(const CcpProblem& p) {
          static_cast<double>(p.bodies()) * 6 * sizeof(double);
 }
 
-void print_floor(std::string_view only) {
+void print_floor(std::span<const Variant> variants) {
   const BedProblem bed{the_bed()};
   const CcpProblem problem = bed.problem();
   const auto contacts = static_cast<double>(problem.contacts.size());
@@ -117,10 +118,7 @@ void print_floor(std::string_view only) {
   fmt::print("{} contacts, {} bodies; floor {:.0f} bytes a contact and iteration\n\n", problem.contacts.size(),
              problem.bodies(), floor_bytes(problem) / contacts);
   fmt::print("{:<16}{:>12}{:>14}{:>10}{:>10}\n", "", "copy GB/s", "ns/contact", "floor", "ratio");
-  static constexpr Variant kVariants[] = {
-      {"apgd", "apgd", ""}, {"spg", "spg", ""}, {"pgs", "pgs", ""}, {"asgs", "asgs", ""}};
-  for (const Variant& variant : kVariants) {
-    if (!only.empty() && only != variant.plugin) continue;
+  for (const Variant& variant : variants) {
     const std::unique_ptr<CcpSolver> solver = make_solver(variant);
     std::vector<double> bandwidth, taken, ratio;
     for (int k = 0; k < kRepeats; ++k) {
@@ -212,7 +210,8 @@ void print_memory(std::size_t contacts) {
 int main(int argc, char** argv) {
   const std::string_view what = argc > 1 ? argv[1] : "floor";
   if (what == "floor") {
-    scree::bench::print_floor(argc > 2 ? argv[2] : "");
+    const scree::bench::Variant asked{argc > 2 ? argv[2] : "", argc > 2 ? argv[2] : "", argc > 3 ? argv[3] : ""};
+    scree::bench::print_floor(argc > 2 ? std::span{&asked, 1} : std::span{scree::bench::kSerial});
   } else if (what == "threads") {
     scree::bench::print_threads();
   } else if (what == "memory") {

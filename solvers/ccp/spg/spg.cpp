@@ -74,15 +74,15 @@ void Spg::prepare(const CcpProblem& problem, const SolveContext& context, std::s
   search_.start(options_.memory);
   alpha_ = 1.0;
   pending_ = 0.0;
-  looks_ = 0;
   last_gain_ = 0;
   gain_residual_ = kInfinity;
   refresh();
 }
 
-// A direction, a step along it, and the spectral step of the next. False when there is no way down.
-bool Spg::iterate(int iteration) {
-  Sums sums = unit_pass();
+// A direction, a step along it, and the spectral step of the next; the residual of x before it, when asked for. False when
+// there is no way down.
+bool Spg::iterate(int iteration, double* residual) {
+  Sums sums = unit_pass(residual);
   const double curvature = packed_.has_matrix() ? matrix_pass() : body_pass();
   sums.curvature += curvature;
   pending_ = 0.0;
@@ -108,39 +108,50 @@ void Spg::choose_step(int turn, const Sums& sums) {
   alpha_ = std::isfinite(ratio) ? std::clamp(ratio, kShortest, kLongest) : kLongest;
 }
 
-// The residual of x [m/s]; x is kept when it is the best so far and not above the start.
-double Spg::look(SolveSummary& summary, double tolerance) {
-  finish_step();
-  if (++looks_ % kLooksToRefresh == 0) refresh();
-  double now = packed_.look(x_, product_).residual;
-  if (now <= tolerance && !fresh_) {
-    refresh();  // the answer is judged from the impulses alone
-    now = packed_.look(x_, product_).residual;
-  }
-  if (!(now < summary.residual) || search_.change() > 0.0) return now;
-  if (now < kGain * gain_residual_) {
-    gain_residual_ = now;
+// x, when its residual is the least so far and its objective, which has changed by `change`, not above the start.
+void Spg::keep_best(SolveSummary& summary, double residual, double change) {
+  if (!(residual < summary.residual) || change > 0.0) return;
+  if (residual < kGain * gain_residual_) {
+    gain_residual_ = residual;
     last_gain_ = summary.iterations;
   }
-  summary.residual = now;
+  summary.residual = residual;
   std::copy(x_.contacts.begin(), x_.contacts.end(), x_best_.contacts.begin());
   std::copy(x_.rows.begin(), x_.rows.end(), x_best_.rows.begin());
+}
+
+// The residual of x with its last step [m/s], from the impulses alone.
+double Spg::look(SolveSummary& summary) {
+  refresh();
+  const double now = packed_.look(x_, product_).residual;
+  keep_best(summary, now, search_.change());
   return now;
 }
 
 SolveStatus Spg::descend(const SolveContext& context, SolveSummary& summary) {
-  int next_look = 1;
-  while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
+  int next_look = 2, looks = 0;  // the pass of an iteration looks at the answer of the one before
+  bool kept = false;             // an answer from the impulses alone
+  while (!kept && summary.iterations < context.max_iterations) {
     const int k = ++summary.iterations;
-    const bool moving = iterate(k);
-    const bool looking = k >= next_look || k == context.max_iterations || !moving;
+    const double change = search_.change();
+    const bool looking = k >= next_look;
+    double seen = kInfinity;
+    bool moving = iterate(k, looking ? &seen : nullptr);
     if (looking) {
-      const double now = look(summary, context.tolerance);
-      if (!std::isfinite(now)) return SolveStatus::numerical_failure;
+      if (!std::isfinite(seen)) return SolveStatus::numerical_failure;
+      if (seen > context.tolerance) keep_best(summary, seen, change);
       next_look = k < options_.check_interval ? 2 * k : k + options_.check_interval;
     }
-    if (context.on_iteration) context.on_iteration({k, looking ? summary.residual : -1.0});
-    if (!moving || k > 2 * last_gain_ + kPatience) return SolveStatus::stalled;
+    const bool near = seen <= context.tolerance, last = k == context.max_iterations || !moving;
+    if (near || last) {
+      const double now = look(summary);
+      kept = now <= context.tolerance && summary.residual == now;
+      next_look = k + 1;
+    } else if (looking && ++looks % kLooksToRefresh == 0) {
+      refresh();
+    }
+    if (context.on_iteration) context.on_iteration({k, looking || near || last ? summary.residual : -1.0});
+    if (!kept && (!moving || k > 2 * last_gain_ + kPatience)) return SolveStatus::stalled;
   }
   return SolveStatus::iteration_limit;
 }

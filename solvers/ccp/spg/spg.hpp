@@ -58,14 +58,15 @@ class Spg final : public CcpSolver {
 
   void prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
   SolveStatus descend(const SolveContext& context, SolveSummary& summary);
-  bool iterate(int iteration);
+  bool iterate(int iteration, double* residual);
   void choose_step(int iteration, const Sums& sums);
-  double look(SolveSummary& summary, double tolerance);
+  double look(SolveSummary& summary);
+  void keep_best(SolveSummary& summary, double residual, double change);
 
-  template <bool compliant>
+  template <bool compliant, bool looking>
   Sums contact_range(const packed::Run& run);
-  Sums block_range(const packed::Run& run);
-  Sums unit_pass();
+  Sums block_range(const packed::Run& run, bool looking);
+  Sums unit_pass(double* residual);
   double body_pass();
   double matrix_pass();
   void move_slots();
@@ -84,8 +85,7 @@ class Spg final : public CcpSolver {
   std::vector<Sums> sums_;
   std::vector<double> partial_;
   double alpha_ = 1.0;
-  double pending_ = 0.0;  ///< lambda that x and w have not moved by yet; the slots have [1]
-  int looks_ = 0;
+  double pending_ = 0.0;        ///< lambda that x and w have not moved by yet; the slots have [1]
   int last_gain_ = 0;           ///< iteration of the last look that found a much smaller residual
   double gain_residual_ = 0.0;  ///< that residual [m/s]
   bool fresh_ = true;           ///< w was made from x, not updated

@@ -6,9 +6,10 @@
 
 namespace scree {
 
-template <bool compliant>
+template <bool compliant, bool looking>
 Spg::Sums Spg::contact_range(const packed::Run& run) {
   spg::LaneSums sums;
+  double worst = 0.0;
   packed::Slot* const slots = packed_.slots();
   const Lanes pending = packed::all(pending_);
   const double alpha = alpha_;
@@ -19,15 +20,17 @@ Spg::Sums Spg::contact_range(const packed::Run& run) {
     x_.contacts[at] = x;
     Lanes3 u = packed::contact_velocity(group, slots);
     if constexpr (compliant) u = u + packed::comply(group, packed_.compliance(at), x);
+    if constexpr (looking) worst = std::max(worst, packed_.group_residual(at, x, u));
     const Lanes3 d = spg::direction(group, x, u, alpha, slots, sums);
     if constexpr (compliant) sums.curvature += dot(d, packed::comply(group, packed_.compliance(at), d));
     d_.contacts[at] = d;
   }
+  if constexpr (looking) partial_[run.index] = worst;
   return sums.total();
 }
 
 // The same for the blocks.
-Spg::Sums Spg::block_range(const packed::Run& run) {
+Spg::Sums Spg::block_range(const packed::Run& run, bool looking) {
   const CcpProblem& problem = packed_.problem();
   const bool matrix = packed_.has_matrix();
   Sums sums;
@@ -45,6 +48,10 @@ Spg::Sums Spg::block_range(const packed::Run& run) {
     } else {
       packed_.block_velocity(block, x, std::span{u}.first(rows));
     }
+    if (looking) {
+      const double residual = packed_.block_residual(block, x, std::span{u}.first(rows));
+      partial_[run.index] = std::max(partial_[run.index], residual);
+    }
     for (std::size_t k = 0; k < rows; ++k) d[k] = x[k] - alpha_ * mass[k] * u[k];
     packed_.project(block, d);
     for (std::size_t k = 0; k < rows; ++k) {
@@ -60,15 +67,24 @@ Spg::Sums Spg::block_range(const packed::Run& run) {
   return sums;
 }
 
-// Moves x by what is pending; makes d and its sums in the slots from their velocities, which are those of x.
-Spg::Sums Spg::unit_pass() {
+// Moves x by what is pending; makes d and its sums in the slots from their velocities, which are those of x. On the way
+// `residual` becomes that of x, when asked for.
+Spg::Sums Spg::unit_pass(double* residual) {
+  const bool compliant = packed_.compliant();
   packed_.for_runs([&](const packed::Run& run) {
-    Sums sums = packed_.compliant() ? contact_range<true>(run) : contact_range<false>(run);
-    if (run.last_block > run.first_block) sums += block_range(run);
-    sums_[run.index] = sums;
+    Sums& sums = sums_[run.index];
+    if (residual != nullptr) {
+      sums = compliant ? contact_range<true, true>(run) : contact_range<false, true>(run);
+    } else {
+      sums = compliant ? contact_range<true, false>(run) : contact_range<false, false>(run);
+    }
+    if (run.last_block > run.first_block) sums += block_range(run, residual != nullptr);
   });
   Sums sums;
   for (const Sums& s : sums_) sums += s;
+  if (residual != nullptr) {
+    *residual = *std::max_element(partial_.begin(), partial_.begin() + static_cast<std::ptrdiff_t>(packed_.runs()));
+  }
   return sums;
 }
 
