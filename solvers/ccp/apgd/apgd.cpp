@@ -7,6 +7,7 @@
 #include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
+#include "scree/ccp/sweep/stall_watch.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 
 namespace scree {
@@ -14,9 +15,6 @@ namespace scree {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A solve has stalled when its residual has not fallen by this factor in as many iterations as it took before, and these.
-constexpr double kGain = 0.9;
-constexpr int kPatience = 1000;
 
 }  // namespace
 
@@ -55,8 +53,6 @@ void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::
   partial_.resize(std::max(packed_.runs(), packed_.body_chunks()));
   theta_ = 1.0, beta_ = 0.0;
   step_ = 1.0;
-  last_gain_ = 0;
-  gain_residual_ = kInfinity;
   start();
 }
 
@@ -94,10 +90,6 @@ bool Apgd::iterate() {
 void Apgd::look(SolveSummary& summary, double start) {
   const double now = residual();
   if (!(now < summary.residual) || objective() > start) return;
-  if (now < kGain * gain_residual_) {
-    gain_residual_ = now;
-    last_gain_ = summary.iterations;
-  }
   summary.residual = now;
   std::copy(x_.contacts.begin(), x_.contacts.end(), x_best_.contacts.begin());
   std::copy(x_.rows.begin(), x_.rows.end(), x_best_.rows.begin());
@@ -105,6 +97,7 @@ void Apgd::look(SolveSummary& summary, double start) {
 
 SolveStatus Apgd::descend(const SolveContext& context, SolveSummary& summary) {
   const double guess = objective(), start = guess + 1e-14 * std::abs(guess);  // up to rounding
+  StallWatch watch{packed_.problem().r};
   int next_look = 1;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
     ++summary.iterations;
@@ -119,7 +112,7 @@ SolveStatus Apgd::descend(const SolveContext& context, SolveSummary& summary) {
       const double best = looking ? summary.residual : std::min(summary.residual, residual());
       context.on_iteration({summary.iterations, best});
     }
-    if (!moving || summary.iterations > 2 * last_gain_ + kPatience) return SolveStatus::stalled;
+    if (!moving || (looking && watch.stalled(summary.iterations, summary.residual))) return SolveStatus::stalled;
   }
   return SolveStatus::iteration_limit;
 }

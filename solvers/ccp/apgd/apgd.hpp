@@ -85,8 +85,6 @@ class Apgd final : public CcpSolver {
   double step_ = 1.0;                ///< t [1]
   double quadratic_ = 0.0;           ///< x_^T N x_ [J]
   double linear_ = 0.0;              ///< r^T x_, as of the last look [J]
-  double gain_residual_ = 0.0;       ///< the least residual, at the last look that found it much less than before [m/s]
-  int last_gain_ = 0;                ///< the iteration of that look
 };
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 #include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
+#include "scree/ccp/sweep/stall_watch.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 
 namespace scree {
@@ -17,9 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kShortest = 1e-8, kLongest = 1e8;
 /// Looks after which the body velocities are made anew: they gather the rounding of all steps.
 constexpr int kLooksToRefresh = 10;
-/// A solve has stalled when its residual has not fallen by this factor in as many iterations as it took before, and these.
-constexpr double kGain = 0.9;
-constexpr int kPatience = 1000;
 
 SpgOptions::Scaling scaling_of(std::string_view name) {
   return name == "block"     ? SpgOptions::Scaling::block
@@ -47,8 +45,8 @@ std::vector<Parameter> Spg::parameters() {
           .by_default("block"),
       Parameter::choice("step", {"bb1", "bb2", "alternating"},
                         "spectral step of Barzilai and Borwein: the long one, the short one, or one after the other")
-          .by_default("alternating"),
-      Parameter::integer("hold", "iterations that use one spectral step").by_default(2).at_least(1.0).at_most(100.0),
+          .by_default("bb1"),
+      Parameter::integer("hold", "iterations that use one spectral step").by_default(4).at_least(1.0).at_most(100.0),
       Parameter::integer("memory", "iterates that the line search compares with; 1 makes it monotone")
           .by_default(10)
           .at_least(1.0)
@@ -74,8 +72,6 @@ void Spg::prepare(const CcpProblem& problem, const SolveContext& context, std::s
   search_.start(options_.memory);
   alpha_ = 1.0;
   pending_ = 0.0;
-  last_gain_ = 0;
-  gain_residual_ = kInfinity;
   refresh();
 }
 
@@ -111,10 +107,6 @@ void Spg::choose_step(int turn, const Sums& sums) {
 // x, when its residual is the least so far and its objective, which has changed by `change`, not above the start.
 void Spg::keep_best(SolveSummary& summary, double residual, double change) {
   if (!(residual < summary.residual) || change > 0.0) return;
-  if (residual < kGain * gain_residual_) {
-    gain_residual_ = residual;
-    last_gain_ = summary.iterations;
-  }
   summary.residual = residual;
   std::copy(x_.contacts.begin(), x_.contacts.end(), x_best_.contacts.begin());
   std::copy(x_.rows.begin(), x_.rows.end(), x_best_.rows.begin());
@@ -129,6 +121,7 @@ double Spg::look(SolveSummary& summary) {
 }
 
 SolveStatus Spg::descend(const SolveContext& context, SolveSummary& summary) {
+  StallWatch watch{packed_.problem().r};
   int next_look = 2, looks = 0;  // the pass of an iteration looks at the answer of the one before
   bool kept = false;             // an answer from the impulses alone
   while (!kept && summary.iterations < context.max_iterations) {
@@ -150,8 +143,9 @@ SolveStatus Spg::descend(const SolveContext& context, SolveSummary& summary) {
     } else if (looking && ++looks % kLooksToRefresh == 0) {
       refresh();
     }
-    if (context.on_iteration) context.on_iteration({k, looking || near || last ? summary.residual : -1.0});
-    if (!kept && (!moving || k > 2 * last_gain_ + kPatience)) return SolveStatus::stalled;
+    const bool looked = looking || near || last;
+    if (context.on_iteration) context.on_iteration({k, looked ? summary.residual : -1.0});
+    if (!kept && (!moving || (looked && watch.stalled(k, summary.residual)))) return SolveStatus::stalled;
   }
   return SolveStatus::iteration_limit;
 }

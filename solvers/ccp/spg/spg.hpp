@@ -33,8 +33,8 @@ struct SpgOptions {
   using Scaling = packed::Scaling;
   enum class Step { bb1, bb2, alternating };  ///< the spectral step; alternating: BB1, BB2, BB1...
   Scaling scaling = Scaling::block;
-  Step step = Step::alternating;
-  int hold = 2;             ///< iterations that use one spectral step
+  Step step = Step::bb1;
+  int hold = 4;             ///< iterations that use one spectral step
   int memory = 10;          ///< iterates that the line search compares with; 1: monotone
   int check_interval = 10;  ///< iterations between two computations of the residual
 };
@@ -85,10 +85,8 @@ class Spg final : public CcpSolver {
   std::vector<Sums> sums_;
   std::vector<double> partial_;
   double alpha_ = 1.0;
-  double pending_ = 0.0;        ///< lambda that x and w have not moved by yet; the slots have [1]
-  int last_gain_ = 0;           ///< iteration of the last look that found a much smaller residual
-  double gain_residual_ = 0.0;  ///< that residual [m/s]
-  bool fresh_ = true;           ///< w was made from x, not updated
+  double pending_ = 0.0;  ///< lambda that x and w have not moved by yet; the slots have [1]
+  bool fresh_ = true;     ///< w was made from x, not updated
 };
 
 }  // namespace scree

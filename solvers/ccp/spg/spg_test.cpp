@@ -14,7 +14,8 @@ INSTANTIATE_TEST_SUITE_P(
                     SolverCase{"contact", [] { return std::make_unique<Spg>(SpgOptions{.scaling = Scaling::unit}); }},
                     SolverCase{"none", [] { return std::make_unique<Spg>(SpgOptions{.scaling = Scaling::none}); }},
                     SolverCase{"bb2", [] { return std::make_unique<Spg>(SpgOptions{.step = Step::bb2}); }},
-                    SolverCase{"bb1", [] { return std::make_unique<Spg>(SpgOptions{.step = Step::bb1}); }},
+                    SolverCase{"alternating",
+                               [] { return std::make_unique<Spg>(SpgOptions{.step = Step::alternating, .hold = 1}); }},
                     SolverCase{"monotone", [] { return std::make_unique<Spg>(SpgOptions{.memory = 1}); }}),
     solver_case_name);
 
@@ -39,7 +40,7 @@ TEST(spg, longer_memory_refuses_fewer_steps) {
   int monotone = 0, remembering = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const TestingProblem t = random_problem({.bodies = 30, .contacts = 80, .seed = seed});
-    Spg one{SpgOptions{.step = Step::bb1, .memory = 1}}, ten{SpgOptions{.step = Step::bb1}};
+    Spg one{SpgOptions{.hold = 1, .memory = 1}}, ten{SpgOptions{.hold = 1}};
     EXPECT_EQ(solve(one, t.view(), 1e-8).summary.status, SolveStatus::converged);
     EXPECT_EQ(solve(ten, t.view(), 1e-8).summary.status, SolveStatus::converged);
     monotone += one.reductions(), remembering += ten.reductions();
