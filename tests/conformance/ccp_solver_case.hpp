@@ -26,7 +26,7 @@ struct SolverCase {
   std::function<std::unique_ptr<CcpSolver>()> make;
 };
 
-inline void PrintTo(const SolverCase& solver, std::ostream* out) { *out << solver.name; }
+inline std::ostream& operator<<(std::ostream& out, const SolverCase& solver) { return out << solver.name; }
 
 inline std::string solver_case_name(const testing::TestParamInfo<SolverCase>& info) { return info.param.name; }
 

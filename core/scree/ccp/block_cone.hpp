@@ -20,9 +20,12 @@
 
 namespace scree {
 
-/// Weights of a norm d_n n^2 + d_t ||t||^2 + d_s s^2 + d_r ||rho||^2 of a cone, all > 0, of one unit.
+/// Weights of a norm d_n n^2 + d_t ||t||^2 + d_s s^2 + d_r ||rho||^2 of a cone, all > 0; only their ratios count.
 struct BlockMetric {
-  double normal = 1.0, tangent = 1.0, spin = 1.0, rolling = 1.0;
+  double normal = 1.0;   ///< d_n [1]
+  double tangent = 1.0;  ///< d_t [1]
+  double spin = 1.0;     ///< d_s [1]
+  double rolling = 1.0;  ///< d_r [1]
 };
 
 /// Moves `g` (block.rows numbers, finite) [N s] to the nearest impulse that the block may have. Points that it may have
