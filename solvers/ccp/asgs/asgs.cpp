@@ -117,11 +117,12 @@ template <class Start>
 void Asgs::forward(const Start& start, const Executor* executor) {
   contacts_.with_layout([&](const auto& layout) {
     contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) {
+      sweep::for_groups(layout, first, last, false, [&](std::size_t k) {
         Lanes3& g = layout.impulse(k);
-        g = start(history_[k], g);
+        const Lanes3 y = start(history_[k], {g.x, g.y, g.z});
+        sweep::store(g, y);
         layout.update(k);
-      }
+      });
     });
   });
 }
@@ -130,12 +131,12 @@ void Asgs::backward(const Executor* executor) {
   contacts_.with_layout([&](const auto& layout) {
     contacts_.for_chunks(true, executor, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       Lanes against{}, linear{};
-      for (std::size_t k = last; k-- > first;) {
+      sweep::for_groups(layout, first, last, true, [&](std::size_t k) {
         layout.update(k);
         const Lanes3& g = layout.impulse(k);
         against += layout.metric_product(k, history_[k].y - g, g - history_[k].x_old);
         linear += layout.linear(k);
-      }
+      });
       sums_[chunk] = {sum_of(against), sum_of(linear)};
     });
   });
@@ -148,10 +149,11 @@ void Asgs::advance(bool both, const Executor* executor) {
     const Lanes a = Lanes{} + steps_.a(), b = Lanes{} + steps_.b();
     forward(
         [a, b](History& history, const Lanes3& z) {
-          const Lanes3 y = history.y;
-          history.y = y + a * (z - y) + b * (y - history.x_old);
-          history.x_old = y;
-          return history.y;
+          const Lanes3 y{history.y.x, history.y.y, history.y.z};
+          const Lanes3 next = y + a * (z - y) + b * (y - history.x_old);
+          sweep::store(history.y, next);
+          sweep::store(history.x_old, y);
+          return next;
         },
         executor);
   } else {
@@ -160,9 +162,10 @@ void Asgs::advance(bool both, const Executor* executor) {
     const Lanes momentum = Lanes{} + beta_;
     forward(
         [momentum](History& history, const Lanes3& x) {
-          history.y = x + momentum * (x - history.x_old);
-          history.x_old = x;
-          return history.y;
+          const Lanes3 next = x + momentum * (x - history.x_old);
+          sweep::store(history.y, next);
+          sweep::store(history.x_old, x);
+          return next;
         },
         executor);
   }
@@ -227,7 +230,7 @@ void Asgs::undo() {
 // 1/2 w^T M w of the bodies' velocities.
 double Asgs::kinetic_energy() {
   const std::span<const sweep::Body> bodies = contacts_.bodies();
-  const std::size_t n = bodies.size() - 1;
+  const std::size_t n = w_.size();
   partial_.assign(Executor::chunk_count(n, DelassusOperator::kGrain), 0.0);
   delassus_.for_chunks(n, [&](std::size_t first, std::size_t last) {
     double sum = 0.0;

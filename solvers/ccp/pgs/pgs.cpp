@@ -56,7 +56,7 @@ void Pgs::sweep(const Executor* executor) {
   blocks_.sweep(false);
   contacts_.with_layout([&](const auto& layout) {
     contacts_.for_chunks(false, executor, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) layout.update(k);
+      sweep::for_groups(layout, first, last, false, [&](std::size_t k) { layout.update(k); });
     });
   });
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scree/ccp/cone3.hpp"
 #include "scree/ccp/delassus.hpp"
 
 namespace scree {
@@ -10,14 +9,11 @@ namespace {
 
 void put(Lanes3& lanes, int k, const Vec3& v) { lanes.x[k] = v.x, lanes.y[k] = v.y, lanes.z[k] = v.z; }
 
-/// Both arms lie along the normal, but for what rounding leaves of the difference of two positions.
-bool is_central(const CcpContact& c) {
-  constexpr double kRounding = 1e-11;
-  const auto lies = [&](const Vec3& arm) {
-    const double along = dot(arm, c.normal);
-    return squared_norm(arm - along * c.normal) <= kRounding * kRounding * along * along;
-  };
-  return lies(c.arm_a) && lies(c.arm_b);
+sweep::LocalStep step_of(const CcpProblem& problem, std::size_t i, const ContactSweep::Settings& settings) {
+  const Mat3 block = diagonal_block(problem, i);
+  const double friction = problem.contacts[i].friction;
+  return settings.scalar_step ? sweep::scalar_step(block, friction, settings.relaxation)
+                              : sweep::block_step(block, friction, settings.relaxation);
 }
 
 }  // namespace
@@ -32,11 +28,11 @@ void ContactSweep::bind(const CcpProblem& problem, const Settings& settings) {
 }
 
 void ContactSweep::bind_bodies(const CcpProblem& problem) {
-  const std::size_t n = problem.bodies();
+  const std::size_t n = problem.bodies(), nothings = std::max<std::size_t>(1, chunks());
   const auto is_isotropic = [](const Mat3& j) { return j == Mat3::diagonal({j.row0.x, j.row0.x, j.row0.x}); };
   const bool isotropic = std::all_of(problem.inverse_inertia.begin(), problem.inverse_inertia.end(), is_isotropic);
-  bodies_.assign(n + 1, sweep::Body{});
-  inertias_.assign(isotropic ? 0 : n + 1, sweep::Inertia{});
+  bodies_.assign(n + nothings, sweep::Body{});
+  inertias_.assign(isotropic ? 0 : n + nothings, sweep::Inertia{});
   for (std::size_t k = 0; k < n; ++k) {
     const Mat3& j = problem.inverse_inertia[k];
     bodies_[k].linear[3] = problem.inverse_mass[k];
@@ -51,84 +47,54 @@ void ContactSweep::bind_bodies(const CcpProblem& problem) {
 }
 
 void ContactSweep::bind_groups(const CcpProblem& problem, const Settings& settings) {
-  const auto nothing = static_cast<std::uint32_t>(problem.bodies());
-  const auto prepare = [&](auto& groups, bool used) {
-    groups.clear();
-    if (!used) return;
-    groups.resize(grouping_.groups.size());
-    for (auto& group : groups) group.a.fill(nothing), group.b.fill(nothing);
-  };
-  contacts_ = problem.contacts;
-  spherical_ = isotropic() && problem.compliance.empty() && std::all_of(contacts_.begin(), contacts_.end(), is_central);
-  prepare(groups_, !spherical_);
-  prepare(spheres_, spherical_);
+  groups_.assign(grouping_.groups.size(), sweep::Group{});
   compliance_.assign(problem.compliance.empty() ? 0 : groups_.size(), Lanes3{});
-  for (std::size_t at = 0; at < grouping_.groups.size(); ++at) {
-    for (int k = 0; k < 4; ++k) {
-      const std::uint32_t i = grouping_.groups[at][static_cast<std::size_t>(k)];
-      if (i == sweep::kNoContact) continue;
-      const Mat3 block = diagonal_block(problem, i);
-      const double friction = contacts_[i].friction;
-      put_contact(problem, at, k, i,
-                  settings.scalar_step ? sweep::scalar_step(block, friction, settings.relaxation)
-                                       : sweep::block_step(block, friction, settings.relaxation));
+  for (std::size_t chunk = 0; chunk < chunks(); ++chunk) {
+    const auto nothing = static_cast<std::uint32_t>(problem.bodies() + chunk);
+    for (std::size_t at = grouping_.first[chunk]; at < grouping_.first[chunk + 1]; ++at) {
+      groups_[at].a.fill(nothing);
+      groups_[at].b.fill(nothing);
+      for (int k = 0; k < 4; ++k) {
+        const std::uint32_t i = grouping_.groups[at][static_cast<std::size_t>(k)];
+        if (i != sweep::kNoContact) put_contact(problem, at, k, i, step_of(problem, i, settings));
+      }
     }
   }
 }
 
 void ContactSweep::put_contact(const CcpProblem& problem, std::size_t at, int lane, std::size_t i,
                                const sweep::LocalStep& step) {
-  const CcpContact& c = contacts_[i];
-  const Vec3 r = load_block(problem.r, i);
+  const CcpContact& c = problem.contacts[i];
   const auto k = static_cast<std::size_t>(lane);
-  if (spherical_) {
-    sweep::SphereGroup& group = spheres_[at];
-    put(group.normal, lane, c.normal);
-    put(group.r, lane, in_world(c, r));
-    group.arm_a[lane] = dot(c.arm_a, c.normal), group.arm_b[lane] = dot(c.arm_b, c.normal);
-    group.step_n[lane] = step.normal, group.step_t[lane] = step.tangent, group.friction[lane] = c.friction;
-    group.a[k] = c.a, group.b[k] = c.b;
-    return;
-  }
   sweep::Group& group = groups_[at];
   put(group.normal, lane, c.normal);
   put(group.tangent1, lane, c.tangent1);
   put(group.arm_a, lane, c.arm_a);
   put(group.arm_b, lane, c.arm_b);
-  put(group.r, lane, r);
+  put(group.r, lane, load_block(problem.r, i));
   group.step_n[lane] = step.normal, group.step_t[lane] = step.tangent;
   group.along[lane] = step.weights.along, group.across[lane] = step.weights.across, group.friction[lane] = c.friction;
-  group.a[k] = c.a, group.b[k] = c.b;
+  // Immovable bodies stay with the one that stands for nothing.
+  if (problem.inverse_mass[c.a] > 0.0) group.a[k] = c.a;
+  if (problem.inverse_mass[c.b] > 0.0) group.b[k] = c.b;
   if (!problem.compliance.empty()) put(compliance_[at], lane, load_block(problem.compliance, i));
 }
 
-const std::array<std::uint32_t, 4>& ContactSweep::first_bodies(std::size_t k) const {
-  return spherical_ ? spheres_[k].a : groups_[k].a;
-}
-const std::array<std::uint32_t, 4>& ContactSweep::second_bodies(std::size_t k) const {
-  return spherical_ ? spheres_[k].b : groups_[k].b;
-}
-
 void ContactSweep::set_impulses(std::span<const double> gamma) {
-  for (std::size_t at = 0; at < grouping_.groups.size(); ++at) {
+  for (std::size_t at = 0; at < groups_.size(); ++at) {
     for (int k = 0; k < 4; ++k) {
       const std::uint32_t i = grouping_.groups[at][static_cast<std::size_t>(k)];
-      if (i == sweep::kNoContact) continue;
-      const Vec3 g = load_block(gamma, i);
-      spherical_ ? put(spheres_[at].g, k, in_world(contacts_[i], g)) : put(groups_[at].g, k, g);
+      if (i != sweep::kNoContact) put(groups_[at].g, k, load_block(gamma, i));
     }
   }
 }
 
 void ContactSweep::impulses(std::span<double> gamma) const {
-  for (std::size_t at = 0; at < grouping_.groups.size(); ++at) {
-    const Lanes3& g = spherical_ ? spheres_[at].g : groups_[at].g;
+  for (std::size_t at = 0; at < groups_.size(); ++at) {
+    const Lanes3& g = groups_[at].g;
     for (int k = 0; k < 4; ++k) {
       const std::uint32_t i = grouping_.groups[at][static_cast<std::size_t>(k)];
-      if (i == sweep::kNoContact) continue;
-      const Vec3 one{g.x[k], g.y[k], g.z[k]};
-      // Turning may put an impulse on the surface of its cone outside by rounding.
-      store_block(gamma, i, spherical_ ? project_cone3(in_frame(contacts_[i], one), contacts_[i].friction) : one);
+      if (i != sweep::kNoContact) store_block(gamma, i, {g.x[k], g.y[k], g.z[k]});
     }
   }
 }

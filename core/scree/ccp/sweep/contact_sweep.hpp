@@ -2,7 +2,7 @@
 //
 // Contacts lie in groups of four, one a vector lane (grouping.hpp); groups in chunks, which go in the order of the contacts, or
 // by colours, several threads at a time (colouring.hpp). What a sweep does with a group is the solver's: it takes the layout
-// that the problem allows (layout.hpp), loops over the groups of a chunk and calls update(), or something of its own.
+// that the problem asks for (layout.hpp), loops over the groups of a chunk and calls update(), or something of its own.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,6 @@ class ContactSweep {
     double relaxation = 1.0;   ///< omega [1]
   };
 
-  /// The contacts of `problem` stay where they are during the use.
   void bind(const CcpProblem& problem, const Settings& settings);
 
   /// Sets all impulses (3 m) [N s].
@@ -42,13 +41,13 @@ class ContactSweep {
   [[nodiscard]] bool isotropic() const { return inertias_.empty(); }
   /// Groups of four contacts.
   [[nodiscard]] std::size_t groups() const { return grouping_.groups.size(); }
-  /// Bodies of the lanes of group k.
-  [[nodiscard]] const std::array<std::uint32_t, 4>& first_bodies(std::size_t k) const;
-  [[nodiscard]] const std::array<std::uint32_t, 4>& second_bodies(std::size_t k) const;
-  /// Calls visit(layout) with that of layout.hpp which holds the contacts.
+  /// First or second bodies of the lanes of group k; immovable ones and those of empty lanes are past the problem's last.
+  [[nodiscard]] const std::array<std::uint32_t, 4>& bodies_of(std::size_t k, bool first) const {
+    return first ? groups_[k].a : groups_[k].b;
+  }
+  /// Calls visit(layout) with a sweep::Layout.
   template <class Visit>
   void with_layout(const Visit& visit) {
-    if (spherical_) return visit(sweep::SphereLayout{spheres_.data(), bodies_.data()});
     const bool compliant = !compliance_.empty();
     if (isotropic()) {
       compliant ? visit(layout<true, true>()) : visit(layout<true, false>());
@@ -56,7 +55,7 @@ class ContactSweep {
       compliant ? visit(layout<false, true>()) : visit(layout<false, false>());
     }
   }
-  /// One more than the problem has: empty lanes refer to the last, which is immovable.
+  /// Those of the problem, and one more a chunk, which stands for nothing.
   [[nodiscard]] std::span<sweep::Body> bodies() { return bodies_; }
 
   [[nodiscard]] std::size_t chunks() const { return grouping_.first.size() - 1; }
@@ -94,19 +93,16 @@ class ContactSweep {
   /// Fills lane `lane` of group `at` with contact i and its step.
   void put_contact(const CcpProblem& problem, std::size_t at, int lane, std::size_t i, const sweep::LocalStep& step);
   template <bool isotropic, bool compliant>
-  sweep::GeneralLayout<isotropic, compliant> layout() {
+  sweep::Layout<isotropic, compliant> layout() {
     return {groups_.data(), compliance_.data(), bodies_.data(), inertias_.data()};
   }
 
   bool coloured_ = false;
-  bool spherical_ = false;
-  std::span<const CcpContact> contacts_;
   sweep::Grouping grouping_;
   sweep::Colouring colouring_;
   std::vector<sweep::Body> bodies_;
   std::vector<sweep::Inertia> inertias_;
-  std::vector<sweep::Group> groups_;         ///< empty when spherical
-  std::vector<sweep::SphereGroup> spheres_;  ///< empty when not
+  std::vector<sweep::Group> groups_;
   std::vector<Lanes3> compliance_;
 };
 

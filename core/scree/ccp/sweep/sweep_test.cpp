@@ -85,9 +85,9 @@ TEST(contact_sweep, backward_is_the_opposite_order_and_visits_every_group_once) 
       return found;
     };
     const auto share = [&](std::size_t x, std::size_t y) {
-      for (const std::uint32_t i : {sweep.first_bodies(x)[0], sweep.second_bodies(x)[0]}) {
+      for (const std::uint32_t i : {sweep.bodies_of(x, true)[0], sweep.bodies_of(x, false)[0]}) {
         if (i >= t.inverse_mass.size() || t.inverse_mass[i] == 0.0) continue;
-        if (i == sweep.first_bodies(y)[0] || i == sweep.second_bodies(y)[0]) return true;
+        if (i == sweep.bodies_of(y, true)[0] || i == sweep.bodies_of(y, false)[0]) return true;
       }
       return false;
     };

@@ -32,8 +32,9 @@ struct alignas(32) Inertia {
   Lanes column[3];
 };
 
-/// Four contacts. A lane without a contact has zero steps and the body that
-/// stands for nothing.
+/// Four contacts. A lane without a contact has zero steps. Its bodies are the one
+/// that stands for nothing, as are all immovable bodies: its velocity is zero and
+/// stays so, and no other chunk has it.
 struct alignas(64) Group {
   Lanes3 normal, tangent1, arm_a, arm_b;  ///< as in CcpContact
   Lanes3 g;                               ///< impulse [N s]
@@ -63,11 +64,7 @@ inline void scatter(const Four& four, const std::array<std::uint32_t, 4>& index,
   Lanes angular[4] = {four.angular.x, four.angular.y, four.angular.z, four.inverse_inertia};
   transpose(linear[0], linear[1], linear[2], linear[3]);
   transpose(angular[0], angular[1], angular[2], angular[3]);
-  for (int k = 0; k < 4; ++k) {
-    // An immovable body may be shared between lanes and threads: it is never written.
-    if (!(linear[k][3] > 0.0)) continue;
-    bodies[index[static_cast<std::size_t>(k)]] = {linear[k], angular[k]};
-  }
+  for (std::size_t k = 0; k < 4; ++k) bodies[index[k]] = {linear[k], angular[k]};
 }
 
 /// I^-1 times the moments of four bodies.
@@ -84,6 +81,9 @@ inline Lanes3 turned(const Four& four, const Inertia* inertias, const std::array
   return moment.x * column(0) + moment.y * column(1) + moment.z * column(2);
 }
 
+/// to = from, part by part: as a whole, GCC 12 copies in halves and through memory.
+inline void store(Lanes3& to, const Lanes3& from) { to.x = from.x, to.y = from.y, to.z = from.z; }
+
 /// project_cone3() of four impulses.
 inline Lanes3 project(const Lanes3& g, const Group& group) {
   const Lanes zero{};
@@ -99,7 +99,8 @@ inline Lanes3 project(const Lanes3& g, const Group& group) {
 /// Updates the impulses of four contacts and the velocities of their bodies.
 /// `compliance` [1/kg] is read for compliant problems only.
 template <bool isotropic, bool compliant>
-inline void update(Group& group, const Lanes3* compliance, Body* bodies, const Inertia* inertias) {
+[[gnu::always_inline]] inline void update(Group& group, const Lanes3* compliance, Body* bodies,
+                                          const Inertia* inertias) {
   Four a = gather(bodies, group.a), b = gather(bodies, group.b);
   const Lanes3 tangent2 = cross(group.normal, group.tangent1);
   const Lanes3 v = (b.linear + cross(b.angular, group.arm_b)) - (a.linear + cross(a.angular, group.arm_a));
@@ -110,7 +111,7 @@ inline void update(Group& group, const Lanes3* compliance, Body* bodies, const I
   const Lanes3 trial{group.g.x - group.step_n * u.x, group.g.y - group.step_t * u.y, group.g.z - group.step_t * u.z};
   const Lanes3 next = project(trial, group);
   const Lanes3 d = next - group.g;
-  group.g = next;
+  store(group.g, next);
 
   const Lanes3 p = d.x * group.normal + d.y * group.tangent1 + d.z * tangent2;
   a.linear = a.linear - a.inverse_mass * p;
