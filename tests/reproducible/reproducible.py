@@ -70,6 +70,15 @@ class Reproducible(unittest.TestCase):
         self.assertEqual(whole["steps"], 200)
         self.assertEqual(whole["state_hash"], self.reference["state_hash"])
 
+    def test_rolling_friction_goes_through_threads_and_checkpoints_too(self):
+        rolling = [part for key, arm in (("rolling", "0.1 mm"), ("spinning", "0.05 mm"))
+                   for part in ("--set", f"material.grain.{key}_friction='{arm}'")]
+        one = self.record_of("rolling", "--threads", "1", *rolling)
+        self.assertNotEqual(one["state_hash"], self.reference["state_hash"])
+        self.record_of("rolling_half", "--end-time", "0.1 s", *rolling)
+        whole = self.record_of("rolling_whole", "--resume", "rolling_half/checkpoint.h5", "--threads", "2", *rolling)
+        self.assertEqual(whole["state_hash"], one["state_hash"])
+
     def test_an_observer_changes_nothing(self):
         (self.work / "observed.toml").write_text('include = ["scene.toml"]\n[[observer]]\ntype = "vtk"\n')
         observed = self.record_of("observed", scene="observed.toml")

@@ -99,6 +99,20 @@ TEST(dvi_rolling, spinning_sphere_stops_after_the_closed_form_time) {
   EXPECT_NEAR(w.bodies.velocity[i].x, 0.0, 1e-12);
 }
 
+// A turntable takes a sphere at its middle along: I w' = mu_s m g until both turn alike.
+TEST(dvi_rolling, turntable_spins_a_sphere_up_to_its_own_speed) {
+  const double turn = 5.0, mu_s = 2e-3, h = 1e-3, gain = mu_s * kG / (0.4 * kRadius * kRadius);
+  World w{exact()};
+  w.host.material({.friction = 0.5, .spinning_friction = mu_s});
+  w.bodies.motion[0] = Motion::kinematic;
+  w.bodies.angular_velocity[0] = {0, 0, turn};
+  const std::size_t i = w.add_sphere({0, 0, kRadius}, kRadius);
+  while (w.time < 0.9 * turn / gain) w.step(h);
+  EXPECT_NEAR(w.bodies.angular_velocity[i].z, gain * w.time, 1e-8 * turn);
+  while (w.time < turn / gain + 2 * h) w.step(h);
+  EXPECT_NEAR(w.bodies.angular_velocity[i].z, turn, 1e-9);
+}
+
 // On an incline a sphere stays iff tan a <= mu_r / R, and else rolls with 5/7 (g sin a - mu_r / R g cos a).
 TEST(dvi_rolling, sphere_stays_on_an_incline_up_to_the_rolling_angle) {
   const double mu_r = 5e-3, limit = std::atan(mu_r / kRadius), h = 1e-3;
