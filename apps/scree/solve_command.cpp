@@ -104,7 +104,7 @@ void add_solve_command(CLI::App& app, int& /*exit_code*/) {
       ->type_name("X");
   command
       ->add_option("--max-iterations", options->max_iterations,
-                   "Stop after so many iterations [as in the scene; FCLIB: 10000]")
+                   "Stop after so many iterations [as in the scene; FCLIB: 100000]")
       ->check(CLI::Range(1, 1'000'000'000))
       ->type_name("N");
   command->add_option("--threads", options->threads, "Threads; the answer does not depend on it [all cores]")

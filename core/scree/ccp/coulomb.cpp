@@ -12,10 +12,15 @@ namespace scree {
 
 namespace {
 
-/// A CCP is solved this much further than the error of the s that it is for.
-constexpr double kAhead = 0.01;
-/// Of the tolerance, what the last CCPs may use up.
+/// A CCP is solved this much further than the error of the s that it is for; after a step without gain, twice as far.
+constexpr double kAhead = 0.02, kFurthest = 1e-3;
+/// Of the tolerance, where the iteration ends of itself: it gets there in a step or two, and the last s then leaves the norms
+/// of many contacts together as small as that of the worst one.
+constexpr double kAim = 0.1;
+/// Of that, what the last CCPs may use up.
 constexpr double kShare = 0.5;
+/// One CCP does not use up all iterations: there is enough for this many, if they have this many iterations at least.
+constexpr int kFewestSolves = 20, kShortestSolve = 100;
 /// Steps without gain after which the iteration begins again from the best point, and how short they may become.
 constexpr int kPatience = 4;
 constexpr double kShortest = 1.0 / 64.0;
@@ -113,6 +118,7 @@ bool CoulombIteration::advance(std::span<double> gamma) {
     without_gain_ = 0;
   } else {
     ++without_gain_;
+    ahead_ = std::max(0.5 * ahead_, kFurthest);
   }
   if (now_.error < best_.error) {
     best_ = now_;
@@ -133,27 +139,27 @@ bool CoulombIteration::advance(std::span<double> gamma) {
 
 void CoulombIteration::iterate(const InnerSolve& inner, const CoulombLimits& limits, std::span<double> gamma,
                                CoulombSummary& summary) {
+  const double aim = (limits.coulomb && !limits.solver_has_its_own_goal ? kAim : 1.0) * limits.tolerance;
+  const int longest =
+      limits.coulomb ? std::max(kShortestSolve, limits.max_iterations / kFewestSolves) : limits.max_iterations;
   int iterations = 0;
   SolveStatus status = SolveStatus::iteration_limit;
   while (summary.solves < limits.max_solves && iterations < limits.max_iterations) {
     pose(gamma);
-    const double ahead = kAhead * std::min(now_.error, best_.error);
-    const InnerGoal goal{std::max(kShare * limits.tolerance, std::isfinite(ahead) ? ahead : 0.0),
-                         limits.max_iterations - iterations};
+    const double ahead = ahead_ * std::min(now_.error, best_.error);
+    const InnerGoal goal{std::max(kShare * aim, std::isfinite(ahead) ? ahead : 0.0),
+                         std::min(limits.max_iterations - iterations, longest)};
     now_.solve = inner(posed_, goal, gamma);
     iterations += now_.solve.iterations;
     ++summary.solves;
     look(gamma, limits);
     const bool lost = now_.solve.status == SolveStatus::numerical_failure;
-    const bool done = now_.error <= limits.tolerance;
-    if (lost || done) status = lost ? SolveStatus::numerical_failure : SolveStatus::converged;
-    const bool on = advance(gamma) && !lost && !done;
-    if (on) continue;
-    if (!lost && !done) status = SolveStatus::stalled;
-    break;
+    const bool on = advance(gamma);
+    if (lost || !on) status = lost ? SolveStatus::numerical_failure : SolveStatus::stalled;
+    if (lost || !on || best_.error <= aim) break;
   }
   summary.solve = best_.solve;
-  summary.solve.status = status;
+  summary.solve.status = best_.error <= limits.tolerance ? SolveStatus::converged : status;
   summary.solve.iterations = iterations;
   summary.error = best_.error;
 }
@@ -170,6 +176,7 @@ CoulombSummary CoulombIteration::solve(const CcpProblem& problem, const Executor
     return summary;
   }
   damping_ = 1.0;
+  ahead_ = kAhead;
   without_gain_ = 0;
   mixing_.restart(problem.units());
   look(gamma, limits);  // the first s: that of the guess

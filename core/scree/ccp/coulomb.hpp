@@ -91,6 +91,7 @@ class CoulombIteration {
   std::vector<double> best_gamma_;
   AndersonMixing mixing_;
   double damping_ = 1.0;
+  double ahead_ = 0.0;  ///< accuracy of the CCPs, over the error of s [1]
   int without_gain_ = 0;
 };
 

@@ -17,7 +17,7 @@ using Vector = Eigen::VectorXd;
 
 /// An FCLIB problem says nothing of when to stop.
 constexpr double kTolerance = 1e-8;  // [m/s]
-constexpr int kMaxIterations = 10'000;
+constexpr int kMaxIterations = 100'000;
 /// Asymmetry [1] that is not a mistake: gyroscopic terms of spinning bodies in an implicit scheme.
 constexpr double kMostAsymmetry = 0.1;
 constexpr double kRounding = 1e-13;
