@@ -23,7 +23,7 @@ struct Parts {
   std::size_t count = 0;
 
   void add(const Part& part) { list[count++] = part; }
-  [[nodiscard]] std::span<Part> all() { return {list.data(), count}; }
+  [[nodiscard]] std::span<Part> all() & { return {list.data(), count}; }
 };
 
 double length_of(std::span<const double> x) {
@@ -104,13 +104,15 @@ void project_block(const CcpBlock& block, const BlockMetric& metric, std::span<d
 
 double dissipation_rate(const CcpBlock& block, std::span<const double> u) {
   if (block.kind != CcpKind::cone) return 0.0;
+  Parts parts = parts_of(block, {}, u);
   double sum = 0.0;
-  for (const Part& part : parts_of(block, {}, u).all()) sum += part.coefficient * part.length;
+  for (const Part& part : parts.all()) sum += part.coefficient * part.length;
   return sum;
 }
 
 double violation(const CcpBlock& block, std::span<const double> g) {
   double worst = -std::numeric_limits<double>::infinity();
+  Parts parts;
   switch (block.kind) {
     case CcpKind::free:
       break;
@@ -122,7 +124,8 @@ double violation(const CcpBlock& block, std::span<const double> g) {
       break;
     case CcpKind::cone:
       worst = -g[0];
-      for (const Part& part : parts_of(block, {}, g).all()) {
+      parts = parts_of(block, {}, g);
+      for (const Part& part : parts.all()) {
         worst = std::max(worst, part.length - part.coefficient * g[0]);
       }
       break;

@@ -60,8 +60,9 @@ TEST(ccp_figures, objective_of_a_stopped_sphere_is_its_energy_lost) {
 TEST(ccp_figures, agree_with_the_residual_and_the_operator) {
   const TestingProblem t = random_problem({.bodies = 20, .contacts = 50, .compliant = true, .seed = 8});
   const std::vector<double> gamma(t.view().rows(), 0.3);
+  const CcpProblem problem = t.view();
   DelassusOperator delassus;
-  delassus.bind(t.view(), nullptr);
+  delassus.bind(problem, nullptr);
   const CcpFigures figures = figures_of(t, gamma);
   EXPECT_EQ(figures.residual, ccp_residual(t.view(), gamma));
   // The same terms in another order.
