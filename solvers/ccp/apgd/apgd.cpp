@@ -15,6 +15,9 @@ namespace scree {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The residual is far above the tolerance by this factor; then so many looks at it are left out.
+constexpr double kFar = 10.0;
+constexpr int kLooksLeftOut = 4;
 
 }  // namespace
 
@@ -32,7 +35,9 @@ std::vector<Parameter> Apgd::parameters() {
           .by_default(1.0)
           .at_least(1.0)
           .at_most(2.0),
-      Parameter::integer("check_interval", "iterations between two computations of the residual")
+      Parameter::integer(
+          "check_interval",
+          "iterations between two computations of the residual; five times as many far above the tolerance")
           .by_default(10)
           .at_least(1.0),
   };
@@ -53,6 +58,7 @@ void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::
   partial_.resize(std::max(packed_.runs(), packed_.body_chunks()));
   theta_ = 1.0, beta_ = 0.0;
   step_ = 1.0;
+  pace_ = residual_per_pace_ = 0.0;
   start();
 }
 
@@ -76,6 +82,7 @@ bool Apgd::iterate() {
   }
   const bool moved = sums.distance > 0.0 || beta_ != 0.0;
   quadratic_ = sums.quadratic;
+  pace_ = std::sqrt(sums.distance) / step_;
   x_.swap(x_old_);
   p_.swap(p_old_);
   product_.swap(product_old_);
@@ -89,22 +96,30 @@ bool Apgd::iterate() {
 // The residual of x_; keeps it when it is the best so far and not above the start.
 void Apgd::look(SolveSummary& summary, double start) {
   const double now = residual();
+  residual_per_pace_ = now / pace_;
   if (!(now < summary.residual) || objective() > start) return;
   summary.residual = now;
-  std::copy(x_.contacts.begin(), x_.contacts.end(), x_best_.contacts.begin());
-  std::copy(x_.rows.begin(), x_.rows.end(), x_best_.rows.begin());
+  packed_.copy(x_, x_best_);
 }
 
 SolveStatus Apgd::descend(const SolveContext& context, SolveSummary& summary) {
   const double guess = objective(), start = guess + 1e-14 * std::abs(guess);  // up to rounding
   StallWatch watch{packed_.problem().r};
-  int next_look = 1;
+  int next_look = 1, left_out = 0;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
     ++summary.iterations;
     const bool moving = iterate();
-    const bool looking = summary.iterations >= next_look || summary.iterations == context.max_iterations || !moving;
+    const bool last = summary.iterations == context.max_iterations || !moving;
+    bool looking = last || summary.iterations >= next_look;
+    // A look costs half an iteration and more. As far as the length of the steps tells, there is nothing to be seen yet.
+    if (looking && !last && left_out < kLooksLeftOut && residual_per_pace_ * pace_ > kFar * context.tolerance) {
+      looking = false;
+      ++left_out;
+      next_look = summary.iterations + options_.check_interval;
+    }
     if (looking) {
       look(summary, start);
+      left_out = 0;
       next_look = summary.iterations < options_.check_interval ? 2 * summary.iterations
                                                                : summary.iterations + options_.check_interval;
     }

@@ -83,6 +83,8 @@ class Apgd final : public CcpSolver {
   double theta_ = 1.0, beta_ = 0.0;  ///< of the next step [1]
   double spread_ = -1.0;             ///< beta of the y whose velocities the slots have; below zero: of none
   double step_ = 1.0;                ///< t [1]
+  double pace_ = 0.0;                ///< ||x_new - y||_D / t, which falls with the residual
+  double residual_per_pace_ = 0.0;   ///< at the last look
   double quadratic_ = 0.0;           ///< x_^T N x_ [J]
   double linear_ = 0.0;              ///< r^T x_, as of the last look [J]
 };

@@ -108,8 +108,7 @@ void Spg::choose_step(int turn, const Sums& sums) {
 void Spg::keep_best(SolveSummary& summary, double residual, double change) {
   if (!(residual < summary.residual) || change > 0.0) return;
   summary.residual = residual;
-  std::copy(x_.contacts.begin(), x_.contacts.end(), x_best_.contacts.begin());
-  std::copy(x_.rows.begin(), x_.rows.end(), x_best_.rows.begin());
+  packed_.copy(x_, x_best_);
 }
 
 // The residual of x with its last step [m/s], from the impulses alone.

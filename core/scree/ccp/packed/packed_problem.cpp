@@ -205,6 +205,13 @@ void PackedProblem::pack(std::span<const double> gamma, Impulses& x) const {
   x.rows.assign(rows.begin(), rows.end());
 }
 
+void PackedProblem::copy(const Impulses& from, Impulses& to) const {
+  delassus_->for_chunks(from.contacts.size(), [&](std::size_t first, std::size_t last) {
+    std::copy(from.contacts.data() + first, from.contacts.data() + last, to.contacts.data() + first);
+  });
+  std::copy(from.rows.begin(), from.rows.end(), to.rows.begin());
+}
+
 void PackedProblem::unpack(const Impulses& x, std::span<double> gamma) const {
   const CcpProblem& p = problem();
   delassus_->for_chunks(p.contacts.size(), [&](std::size_t first, std::size_t last) {

@@ -77,6 +77,8 @@ class PackedProblem {
 
   /// Size of `x` and its numbers from `gamma`.
   void pack(std::span<const double> gamma, Impulses& x) const;
+  /// Both of the size that pack() gives.
+  void copy(const Impulses& from, Impulses& to) const;
   /// Back to `gamma`, onto the cones to the last bit; units that no impulse moves keep what they have.
   void unpack(const Impulses& x, std::span<double> gamma) const;
 
