@@ -5,15 +5,15 @@
 
 namespace scree::sweep {
 
-void Colouring::build(const CcpProblem& problem) {
-  const std::size_t m = problem.contacts.size();
-  const std::size_t chunk_count = (m + kChunkLength - 1) / kChunkLength;
+void Colouring::build(const CcpProblem& problem, const Sequence& sequence) {
+  const std::size_t chunk_count = sequence.chunks();
   colours_of_body_.assign(problem.bodies(), 0);
   colour_.resize(chunk_count);
   std::uint32_t colours = 0;
   const auto bodies_of = [&](std::size_t chunk, auto&& visit) {
-    for (std::size_t i = chunk * kChunkLength; i < std::min((chunk + 1) * kChunkLength, m); ++i) {
-      for (const std::uint32_t body : {problem.contacts[i].a, problem.contacts[i].b}) {
+    for (std::size_t at = sequence.first()[chunk]; at < sequence.first()[chunk + 1]; ++at) {
+      const CcpContact& contact = problem.contacts[sequence.contacts()[at]];
+      for (const std::uint32_t body : {contact.a, contact.b}) {
         if (problem.inverse_mass[body] > 0.0) visit(body);
       }
     }
@@ -21,7 +21,8 @@ void Colouring::build(const CcpProblem& problem) {
   for (std::size_t chunk = 0; chunk < chunk_count; ++chunk) {
     std::uint64_t taken = 0;
     bodies_of(chunk, [&](std::uint32_t body) { taken |= colours_of_body_[body]; });
-    const auto colour = static_cast<std::uint32_t>(std::countr_one(taken));
+    const bool of_hubs = chunk >= sequence.ordinary_chunks();
+    const auto colour = static_cast<std::uint32_t>(of_hubs ? kMaxColours : std::countr_one(taken));
     colour_[chunk] = colour;
     if (colour == kMaxColours) continue;
     bodies_of(chunk, [&](std::uint32_t body) { colours_of_body_[body] |= std::uint64_t{1} << colour; });

@@ -1,16 +1,17 @@
 // Colouring: an order of the contacts in which threads may work side by side.
 //
-// Chunks of consecutive contacts get colours such that chunks of one colour
-// share no movable body. A sweep goes colour by colour; inside a colour the
-// order of chunks cannot show, inside a chunk contacts go in order. A body that
-// nearly every chunk touches (a free drum) makes chunks that fit no colour: they
-// come last, one after the other.
+// The chunks of a Sequence get colours such that chunks of one colour share no
+// movable body. A sweep goes colour by colour; inside a colour the order of
+// chunks cannot show, inside a chunk contacts go in order. Chunks of contacts of
+// a hub (a free drum) share it all, and get no colour: they come last, one after
+// the other, as would any that fit none.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "scree/ccp/problem.hpp"
+#include "scree/ccp/sweep/sequence.hpp"
 
 namespace scree::sweep {
 
@@ -22,7 +23,7 @@ class Colouring {
   static constexpr std::size_t kChunkLength = 256;
   static constexpr std::size_t kMaxColours = 64;
 
-  void build(const CcpProblem& problem);
+  void build(const CcpProblem& problem, const Sequence& sequence);
 
   /// Chunks in order of colour.
   [[nodiscard]] const std::vector<std::uint32_t>& chunks() const { return chunks_; }

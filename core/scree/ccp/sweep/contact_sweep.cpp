@@ -20,9 +20,9 @@ sweep::LocalStep step_of(const CcpProblem& problem, std::size_t i, const Contact
 
 void ContactSweep::bind(const CcpProblem& problem, const Settings& settings) {
   coloured_ = settings.coloured;
-  grouping_.build(problem,
-                  coloured_ ? sweep::Colouring::kChunkLength : std::max<std::size_t>(1, problem.contacts.size()));
-  if (coloured_) colouring_.build(problem);
+  coloured_ ? sequence_.build_chunks(problem, sweep::Colouring::kChunkLength) : sequence_.build_whole(problem);
+  grouping_.build(problem, sequence_);
+  if (coloured_) colouring_.build(problem, sequence_);
   bind_bodies(problem);
   bind_groups(problem, settings);
 }

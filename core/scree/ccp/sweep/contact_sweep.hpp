@@ -98,6 +98,7 @@ class ContactSweep {
   }
 
   bool coloured_ = false;
+  sweep::Sequence sequence_;
   sweep::Grouping grouping_;
   sweep::Colouring colouring_;
   std::vector<sweep::Body> bodies_;

@@ -1,15 +1,12 @@
 #include "scree/ccp/sweep/grouping.hpp"
 
-#include <algorithm>
-
 namespace scree::sweep {
 
 namespace {
 constexpr std::size_t kQueue = 48;
 }
 
-void Grouping::build(const CcpProblem& problem, std::size_t chunk) {
-  const std::size_t m = problem.contacts.size();
+void Grouping::build(const CcpProblem& problem, const Sequence& sequence) {
   groups.clear();
   first.clear();
   std::array<std::uint32_t, kQueue> queue{};
@@ -18,12 +15,12 @@ void Grouping::build(const CcpProblem& problem, std::size_t chunk) {
     const auto meets = [&](std::uint32_t k) { return (k == y.a || k == y.b) && problem.inverse_mass[k] > 0.0; };
     return meets(x.a) || meets(x.b);
   };
-  for (std::size_t begin = 0; begin < m; begin += chunk) {
+  for (std::size_t chunk = 0; chunk < sequence.chunks(); ++chunk) {
     first.push_back(static_cast<std::uint32_t>(groups.size()));
-    const std::size_t end = std::min(begin + chunk, m);
-    std::size_t next = begin, waiting = 0;
+    const std::size_t end = sequence.first()[chunk + 1];
+    std::size_t next = sequence.first()[chunk], waiting = 0;
     while (next < end || waiting > 0) {
-      while (waiting < kQueue && next < end) queue[waiting++] = static_cast<std::uint32_t>(next++);
+      while (waiting < kQueue && next < end) queue[waiting++] = sequence.contacts()[next++];
       // One walk through the queue: what fits goes into the group, the rest moves up.
       std::array<std::uint32_t, 4> group{kNoContact, kNoContact, kNoContact, kNoContact};
       std::size_t members = 0, kept = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scree/ccp/problem.hpp"
+#include "scree/ccp/sweep/sequence.hpp"
 
 namespace scree::sweep {
 
@@ -15,12 +16,11 @@ inline constexpr std::uint32_t kNoContact = std::numeric_limits<std::uint32_t>::
 /// The contacts of each group, in the order of a sweep.
 struct Grouping {
   std::vector<std::array<std::uint32_t, 4>> groups;  ///< kNoContact: an empty lane
-  std::vector<std::uint32_t> first;                  ///< first group of each chunk of contacts, and the end
+  std::vector<std::uint32_t> first;                  ///< first group of each chunk, and the end
 
-  /// Groups never reach across chunks of `chunk` contacts. Contacts are taken in
-  /// order as far as they fit, from a short queue, so that memory is still
-  /// walked through in order.
-  void build(const CcpProblem& problem, std::size_t chunk);
+  /// Groups never reach across chunks. Contacts are taken in order as far as they
+  /// fit, from a short queue, so that memory is still walked through in order.
+  void build(const CcpProblem& problem, const Sequence& sequence);
 };
 
 }  // namespace scree::sweep

@@ -27,31 +27,66 @@ TEST(local_step, bounds_the_block) {
   }
 }
 
+/// A problem whose last body touches `touching` of the contacts, one after the other.
+TestingProblem with_hub(std::size_t touching) {
+  TestingProblem t = random_problem({.bodies = 4000, .immovable = 2, .contacts = 6000, .seed = 8});
+  const std::uint32_t hub = t.add_body(1e3, {1.0, 1.0, 1.0});
+  for (std::uint32_t k = 0; k < touching; ++k) {
+    t.add_contact(2 + k % 4000, hub, {0, 0, 1}, {0, 0, 0.5}, {0, 0, -0.5}, 0.4, {-1.0, 0.1, 0.0});
+  }
+  return t;
+}
+
+// Every contact in one chunk, once; no movable body in two chunks of a colour; a hub costs no colour, and what it makes
+// serial is its own contacts only.
 TEST(colouring, chunks_of_one_colour_share_no_movable_body) {
-  const TestingProblem t = random_problem({.bodies = 4000, .immovable = 2, .contacts = 6000, .seed = 8});
-  sweep::Colouring colouring;
-  colouring.build(t.view());
-  std::vector<int> seen(t.contacts.size(), 0);
-  std::vector<std::int64_t> owner(t.inverse_mass.size());
-  for (std::size_t c = 0; c + 1 < colouring.first().size(); ++c) {
-    std::fill(owner.begin(), owner.end(), -1);
-    for (std::size_t k = colouring.first()[c]; k < colouring.first()[c + 1]; ++k) {
-      const std::size_t begin = colouring.chunks()[k] * sweep::Colouring::kChunkLength;
-      for (std::size_t i = begin; i < std::min(begin + sweep::Colouring::kChunkLength, t.contacts.size()); ++i) {
-        ++seen[i];
-        for (const std::uint32_t body : {t.contacts[i].a, t.contacts[i].b}) {
-          if (t.inverse_mass[body] == 0.0) continue;
-          EXPECT_TRUE(owner[body] < 0 || owner[body] == static_cast<std::int64_t>(k));
-          owner[body] = static_cast<std::int64_t>(k);
+  std::size_t colours_without = 0;
+  for (const std::size_t touching : {0, 2000}) {
+    const TestingProblem t = with_hub(touching);
+    sweep::Sequence sequence;
+    sequence.build_chunks(t.view(), sweep::Colouring::kChunkLength);
+    sweep::Colouring colouring;
+    colouring.build(t.view(), sequence);
+    std::vector<int> seen(t.contacts.size(), 0);
+    std::vector<std::int64_t> owner(t.inverse_mass.size());
+    std::size_t serial = 0;
+    const std::size_t colours = colouring.first().size() - 1;
+    for (std::size_t c = 0; c <= colours; ++c) {
+      std::fill(owner.begin(), owner.end(), -1);
+      const std::size_t end = c < colours ? colouring.first()[c + 1] : colouring.chunks().size();
+      for (std::size_t k = colouring.first()[c]; k < end; ++k) {
+        const std::size_t chunk = colouring.chunks()[k];
+        for (std::size_t at = sequence.first()[chunk]; at < sequence.first()[chunk + 1]; ++at) {
+          const std::uint32_t i = sequence.contacts()[at];
+          ++seen[i];
+          serial += c == colours ? 1 : 0;
+          for (const std::uint32_t body : {t.contacts[i].a, t.contacts[i].b}) {
+            if (t.inverse_mass[body] == 0.0 || c == colours) continue;
+            EXPECT_TRUE(owner[body] < 0 || owner[body] == static_cast<std::int64_t>(k));
+            owner[body] = static_cast<std::int64_t>(k);
+          }
         }
       }
     }
+    for (const int times : seen) EXPECT_EQ(times, 1);
+    EXPECT_EQ(serial, touching);
+    if (touching == 0) colours_without = colours;
+    EXPECT_EQ(colours, colours_without);
   }
-  for (std::size_t k = colouring.first().back(); k < colouring.chunks().size(); ++k) {
-    const std::size_t begin = colouring.chunks()[k] * sweep::Colouring::kChunkLength;
-    for (std::size_t i = begin; i < std::min(begin + sweep::Colouring::kChunkLength, t.contacts.size()); ++i) ++seen[i];
-  }
-  for (const int times : seen) EXPECT_EQ(times, 1);
+}
+
+// Contacts of one body in a row would each take a group of their own: 2000 of 8000 are just as many as the groups of a sweep
+// whose lanes are full.
+TEST(sequence, contacts_of_a_hub_are_spread_over_the_sweep) {
+  const TestingProblem t = with_hub(2000);
+  ContactSweep sweep;
+  sweep.bind(t.view(), {});
+  EXPECT_LT(static_cast<double>(sweep.groups()), 1.1 * static_cast<double>(t.contacts.size()) / 4.0);
+  std::vector<double> gamma(t.view().rows()), same(gamma.size());
+  for (std::size_t k = 0; k < gamma.size(); ++k) gamma[k] = static_cast<double>(k);
+  sweep.set_impulses(gamma);
+  sweep.impulses(same);
+  EXPECT_EQ(gamma, same);  // each contact has its lane
 }
 
 // A sweep backwards undoes nothing but goes through the same groups: each exactly once, in the opposite order of chunks that
