@@ -16,8 +16,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Safeguards of the spectral step [1], in units where the diagonal of N is one.
 constexpr double kShortest = 1e-8, kLongest = 1e8;
-/// Looks after which the body velocities are made anew: they gather the rounding of all steps.
+/// Looks after which the body velocities are made anew: they gather the rounding of all steps. Where the residual is as small
+/// as this share of the largest velocity of r, it shows, and each look does so.
 constexpr int kLooksToRefresh = 10;
+constexpr double kRoundingShows = 1e-6;
 
 SpgOptions::Scaling scaling_of(std::string_view name) {
   return name == "block"     ? SpgOptions::Scaling::block
@@ -86,8 +88,10 @@ bool Spg::iterate(int iteration, double* residual) {
   // of the residual, but known to the last bits of x only, and u is of any size.
   sums.slope = std::min(sums.slope, -sums.distance / alpha_);
   if (!(sums.slope < 0.0)) {
-    if (fresh_) return false;
-    refresh();  // rounding of the velocities may hide the way down
+    if (fresh_ && alpha_ == 1.0) return false;
+    // Rounding of the velocities, or of what the last step was made of, may hide the way down.
+    refresh();
+    alpha_ = 1.0;
     return true;
   }
   pending_ = search_.step(sums.slope, sums.curvature);
@@ -121,6 +125,8 @@ double Spg::look(SolveSummary& summary) {
 
 SolveStatus Spg::descend(const SolveContext& context, SolveSummary& summary) {
   StallWatch watch{packed_.problem().r};
+  double small = 0.0;
+  for (const double velocity : packed_.problem().r) small = std::max(small, kRoundingShows * std::abs(velocity));
   int next_look = 2, looks = 0;  // the pass of an iteration looks at the answer of the one before
   bool kept = false;             // an answer from the impulses alone
   while (!kept && summary.iterations < context.max_iterations) {
@@ -139,7 +145,7 @@ SolveStatus Spg::descend(const SolveContext& context, SolveSummary& summary) {
       const double now = look(summary);
       kept = now <= context.tolerance && summary.residual == now;
       next_look = k + 1;
-    } else if (looking && ++looks % kLooksToRefresh == 0) {
+    } else if (looking && (++looks % kLooksToRefresh == 0 || seen < small)) {
       refresh();
     }
     const bool looked = looking || near || last;
