@@ -26,7 +26,8 @@ TEST(ccp_solvers, agree_in_velocity_to_1e_6_of_the_largest_speed) {
     const CcpProblem problem = t.view();
     std::vector<Twist> reference;
     double largest = 0.0;
-    for (const char* const name : {"apgd", "pgs", "asgs", "spg", "jacobi"}) {
+    for (const char* const name :
+         {"apgd", "pgs", "asgs", "spg", "jacobi", "admm", "interior_point", "semismooth_newton"}) {
       const Solved s = solve(*solver_named(name), problem, 1e-11, 1000000);
       EXPECT_EQ(s.summary.status, SolveStatus::converged) << name << ", seed " << seed;
       const std::vector<Twist> w = velocities_of(problem, s.gamma);

@@ -122,7 +122,7 @@ TEST_P(CcpSolverConformance, objective_with_blocks_is_never_above_that_of_the_pr
 
 TEST_P(CcpSolverConformance, two_threads_give_the_bits_of_one_with_blocks_and_a_second_solve_asks_for_no_memory) {
   if (!takes_blocks(*solver_)) GTEST_SKIP() << "takes no blocks";
-  const PlantedProblem planted = planted_problem({.bodies = 3000, .contacts = 4000, .blocks = 3000});
+  const PlantedProblem planted = planted_problem({.bodies = 3000, .contacts = 4000, .blocks = 3000, .reach = 6});
   const Executor one{1}, two{2};
   const Solved a = solve(*solver_, planted.problem.view(), 0.0, 10, &one);
   const Solved b = solve(*GetParam().make(), planted.problem.view(), 0.0, 10, &two);

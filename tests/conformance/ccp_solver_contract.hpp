@@ -24,8 +24,8 @@ TEST_P(CcpSolverConformance, contact_between_immovable_bodies_does_no_harm) {
 TEST_P(CcpSolverConformance, summary_tells_the_residual_of_the_answer) {
   const TestingProblem t = random_problem({.bodies = 50, .contacts = 150, .mass_decades = 3.0, .seed = 5});
   for (const int limit : {1, 7, 50}) {
-    const Solved s = solve(*solver_, t.view(), 1e-15, limit);
-    EXPECT_EQ(s.summary.status, SolveStatus::iteration_limit);
+    const Solved s = solve(*solver_, t.view(), 0.0, limit);
+    EXPECT_NE(s.summary.status, SolveStatus::converged);  // rounding may also stall it
     EXPECT_LE(s.summary.iterations, limit);
     // Two sums of the same terms in different order.
     EXPECT_NEAR(s.summary.residual, ccp_residual(t.view(), s.gamma), 1e-12);
@@ -68,7 +68,7 @@ TEST_P(CcpSolverConformance, numbers_that_are_not_finite_are_reported_and_never_
 }
 
 TEST_P(CcpSolverConformance, two_threads_give_the_bits_of_one) {
-  const TestingProblem t = random_problem({.bodies = 3000, .immovable = 3, .contacts = 9000, .seed = 9});
+  const TestingProblem t = random_problem({.bodies = 3000, .immovable = 3, .contacts = 9000, .reach = 6, .seed = 9});
   const Executor one{1}, two{2};
   const Solved a = solve(*solver_, t.view(), 1e-9, 20, &one);
   const Solved b = solve(*GetParam().make(), t.view(), 1e-9, 20, &two);
@@ -78,7 +78,7 @@ TEST_P(CcpSolverConformance, two_threads_give_the_bits_of_one) {
 
 // Once the workspace has its size, 20 iterations ask for memory as often as 60 do: never inside the loop.
 TEST_P(CcpSolverConformance, iterations_allocate_nothing) {
-  const TestingProblem t = random_problem({.bodies = 3000, .immovable = 3, .contacts = 9000, .seed = 9});
+  const TestingProblem t = random_problem({.bodies = 3000, .immovable = 3, .contacts = 9000, .reach = 6, .seed = 9});
   const auto allocations = [&](int limit) {
     const std::uint64_t before = allocation_count();
     solve(*solver_, t.view(), 0.0, limit);

@@ -24,6 +24,7 @@ struct PlantedKind {
   bool compliant = false;
   double mass_decades = 1.0;      ///< masses between 1 and 10^this
   double friction_decades = 0.0;  ///< coefficients of up to 10^this
+  std::size_t reach = 0;          ///< bodies that touch are so many apart at most, as in a bed; 0: any
   double repeats = 0.0;           ///< share of the units that stand where one before them does: N is singular
   std::uint64_t seed = 1;
 };
@@ -57,10 +58,7 @@ class Planter {
   double uniform() { return std::uniform_real_distribution<double>{0.0, 1.0}(random_); }
   double normal() { return std::normal_distribution<double>{}(random_); }
   bool chance(double share) { return uniform() < share; }
-  Vec3 direction() {
-    const double x = normal(), y = normal();
-    return normalized(Vec3{x, y, normal()});
-  }
+  Vec3 direction() { return normalized(Vec3{normal(), normal(), normal()}); }
   Twist twist() { return {normal() * direction(), 0.5 * direction()}; }
   double coefficient() {
     if (chance(0.2)) return 0.0;
@@ -71,6 +69,13 @@ class Planter {
     return static_cast<std::uint32_t>(uniform() * all);
   }
 
+  /// Another body for `a`: within reach, when both move.
+  std::uint32_t partner(std::uint32_t a) {
+    const std::uint32_t b = body(), reach = static_cast<std::uint32_t>(what_.reach);
+    if (reach == 0 || std::min(a, b) < what_.immovable || a == b) return b;
+    return b > a ? a + 1 + (b - a - 1) % reach : a - 1 - (a - b - 1) % reach;
+  }
+
   void add_contact() {
     std::vector<CcpContact>& contacts = out_.problem.contacts;
     if (!contacts.empty() && chance(what_.repeats)) {
@@ -79,14 +84,15 @@ class Planter {
       out_.problem.r.resize(out_.problem.r.size() + 3);
       return;
     }
-    const std::uint32_t a = body(), b = body();
+    const std::uint32_t a = body(), b = partner(a);
     if (a >= b || b < what_.immovable) return;
     out_.problem.add_contact(a, b, direction(), 0.5 * direction(), 0.5 * direction(), coefficient(), {});
   }
 
   void add_block() {
     constexpr std::array<std::size_t, 5> kConeRows{1, 2, 3, 5, 6};
-    CcpBlock block{.kind = static_cast<CcpKind>(random_() % 4), .a = body(), .b = body()};
+    CcpBlock block{.kind = static_cast<CcpKind>(random_() % 4), .a = body()};
+    block.b = partner(block.a);
     if (std::max(block.a, block.b) < what_.immovable) return;
     block.friction = coefficient(), block.spinning = coefficient(), block.rolling = coefficient();
     const std::size_t rows = block.kind == CcpKind::cone ? kConeRows[random_() % 5] : 1 + random_() % 6;

@@ -107,6 +107,7 @@ struct RandomProblem {
   std::size_t contacts = 20;
   bool compliant = false;
   double mass_decades = 1.0;  ///< masses between 1 and 10^this
+  std::size_t reach = 0;      ///< bodies that touch are so many apart at most, as in a bed; 0: any
   std::uint64_t seed = 1;
 };
 
@@ -132,6 +133,7 @@ inline TestingProblem random_problem(const RandomProblem& what) {
     auto b = static_cast<std::uint32_t>(uniform(random) * static_cast<double>(velocity.size()));
     if (a == b || std::max(a, b) < what.immovable) continue;
     if (a > b) std::swap(a, b);
+    if (what.reach > 0 && a >= what.immovable) b = a + 1 + (b - a - 1) % static_cast<std::uint32_t>(what.reach);
     const double mu = uniform(random) < 0.2 ? 0.0 : uniform(random);
     const double arm = 0.5;
     t.add_contact(a, b, direction(), a < what.immovable ? Vec3{} : arm * direction(), arm * direction(), mu, {});

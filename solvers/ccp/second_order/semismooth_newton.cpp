@@ -1,0 +1,52 @@
+#include "semismooth_newton.hpp"
+
+#include <limits>
+
+#include "scree/base/require.hpp"
+
+namespace scree {
+
+SemismoothNewton::SemismoothNewton(const Options& options)
+    : SemismoothNewton{second_order::PenaltyOptions{.first = options.number("first_penalty"),
+                                                    .growth = options.number("penalty_growth"),
+                                                    .most = options.number("most_penalty")}} {}
+
+std::vector<Parameter> SemismoothNewton::parameters() {
+  return {
+      Parameter::number("first_penalty", "1", "stiffness of the first outer step, in terms of each contact's own mass")
+          .by_default(10.0)
+          .at_least(1e-3)
+          .at_most(1e8),
+      Parameter::number("penalty_growth", "1", "factor on it from one outer step to the next")
+          .by_default(10.0)
+          .at_least(1.0)
+          .at_most(1e4),
+      Parameter::number("most_penalty", "1", "its limit; rounding errors grow with it")
+          .by_default(1e5)
+          .at_least(1e-3)
+          .at_most(1e8),
+  };
+}
+
+SolveSummary SemismoothNewton::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
+  SCREE_REQUIRE(gamma.size() == problem.rows(), "semismooth_newton: gamma needs one number a row");
+  if (problem.empty()) return {};
+  if (!best_.start(problem, context, gamma)) {
+    return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
+  }
+  SolveSummary summary{SolveStatus::iteration_limit, 0, 0.0};
+  if (!best_.good_enough()) {
+    system_.bind(problem);
+    newton_.run(system_, problem, options_, context, gamma, best_, summary);
+  }
+  best_.conclude(summary);
+  return summary;
+}
+
+void SemismoothNewton::release_workspace() {
+  system_ = {};
+  best_ = {};
+  newton_ = {};
+}
+
+}  // namespace scree
