@@ -72,8 +72,11 @@ def compare(wanted, folder, scene, bed):
         options = {"prefix": prefix, "recovery": RECOVERY, "solver": solver(wanted.iterations, cores)}
         contestants.append((Scree(wanted.program, folder / f"{scene}_{cores}", scene, bed, cores, options),
                             Lammps(wanted.lammps, folder / f"{scene}_{cores}", scene, rows, side, cores, prefix)))
-        for one in contestants[-1]:
-            one.start(wanted.warm_up)
+        contestants[-1][0].start(wanted.warm_up)
+        if len(contestants) == 1:
+            contestants[0][1].start(wanted.warm_up)  # its restart file serves any number of cores
+        else:
+            contestants[-1][1].warm = contestants[0][1].warm
     results = []
     for cores, (scree, lammps) in zip(wanted.cores, contestants):
         ours, theirs = [], []
@@ -108,7 +111,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="for beds, runs and tables")
     parser.add_argument("--bed", type=pathlib.Path, help="settled bed; made with examples/settle if left out")
     parser.add_argument("--lammps", default="lmp", help="the LAMMPS program")
-    parser.add_argument("--warm-up", type=float, default=0.6, help="simulated before the clock starts [s]")
+    parser.add_argument("--warm-up", type=float, default=0.3, help="simulated before the clock starts [s]")
     parser.add_argument("--seconds", type=float, default=0.2, help="simulated while the clock runs [s]")
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--iterations", type=int, default=20, help="of scree's solver, at most, in a step")
@@ -122,11 +125,13 @@ def main():
     beds = {"bed": bed, "drum": make_drum(wanted, folder, grains.read_bed(bed)[0])}
     print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; LAMMPS: {STIFFNESS} N/m, {TIME_STEP} s; "
           f"scree: 1 ms, overlap undone at {RECOVERY} m/s\n", flush=True)
-    results = [row for scene in wanted.scenes for row in compare(wanted, folder, scene, beds[scene])]
-    with open(folder / "headline.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, results[0].keys())
-        writer.writeheader()
-        writer.writerows(results)
+    results = []
+    for scene in wanted.scenes:
+        results += compare(wanted, folder, scene, beds[scene])
+        with open(folder / "headline.csv", "w", newline="") as file:
+            writer = csv.DictWriter(file, results[0].keys())
+            writer.writeheader()
+            writer.writerows(results)
     print("| " + " | ".join(results[0]) + " |\n|" + "---|" * len(results[0]))
     for row in results:
         print("| " + " | ".join(str(value) for value in row.values()) + " |")

@@ -91,7 +91,7 @@ class Lammps:
     def __init__(self, program, folder, scene, rows, side, cores, prefix):
         self.folder, self.scene, self.rows, self.side, self.cores = folder, scene, rows, side, cores
         self.drum = grains.Drum(len(rows)) if scene == "drum" else None
-        self.command = [*prefix, "mpirun", "--allow-run-as-root", "-np", str(cores), program, "-log", "none", "-in"]
+        self.program, self.prefix = program, prefix
         self.warm = folder / f"lammps_{scene}.restart"
         folder.mkdir(parents=True, exist_ok=True)
 
@@ -110,10 +110,10 @@ class Lammps:
             skin=SKIN, k=STIFFNESS, damping=damping(), friction=grains.FRICTION, dt=TIME_STEP, gravity=grains.GRAVITY,
             down="0 -1 0" if drum else "0 0 -1", walls=walls(drum, self.side), often=max(1, steps)) + rest
 
-    def run(self, name, text, prefix):
+    def run(self, name, text, cores):
         path = self.folder / f"{name}.in"
         path.write_text(text)
-        command = self.command if prefix else self.command[self.command.index("mpirun"):]
+        command = [*self.prefix, "mpirun", "--allow-run-as-root", "-np", str(cores), self.program, "-log", "none", "-in"]
         done = subprocess.run([*command, str(path)], capture_output=True, text=True)
         (self.folder / f"{name}.log").write_text(done.stdout + done.stderr)
         if done.returncode != 0:
@@ -122,7 +122,7 @@ class Lammps:
 
     def start(self, seconds):
         steps = round(seconds / TIME_STEP)
-        self.run(f"lammps_{self.scene}_start", self.script(True, steps, f"run {steps}\nwrite_restart {self.warm}\n"), False)
+        self.run(f"lammps_{self.scene}_start", self.script(True, steps, f"run {steps}\nwrite_restart {self.warm}\n"), 1)
 
     def measure(self, seconds):
         """Wall seconds per simulated second, and some frames."""
@@ -131,7 +131,7 @@ class Lammps:
         rest = (f"dump frames all custom {max(1, steps // 4)} {dump} id x y z radius vx vy vz\n"
                 f"dump_modify frames sort id format float %.12g\nrun {steps}\n")
         began = time.time()
-        out = self.run(f"lammps_{self.scene}_{self.cores}", self.script(False, steps, rest), True)
+        out = self.run(f"lammps_{self.scene}_{self.cores}", self.script(False, steps, rest), self.cores)
         loop = float(re.search(r"Loop time of (\S+)", out).group(1))
         return {"wall": loop / (steps * TIME_STEP), "elapsed": time.time() - began,
                 "frames": read_dump(dump, len(self.rows))[1:]}
