@@ -19,4 +19,16 @@ void release(Buffers&... buffers) {
   (Buffers{}.swap(buffers), ...);
 }
 
+/// Frees those of the workspaces that lack room for `count` items, and gives them that room exactly: the old memory and the new
+/// are never held at once, and nothing is doubled, as a vector that grows by itself is. Their items are lost.
+template <class... Buffers>
+void make_room(std::size_t count, Buffers&... buffers) {
+  const auto fit = [count](auto& buffer) {
+    if (buffer.capacity() >= count) return;
+    release(buffer);
+    buffer.reserve(count);
+  };
+  (fit(buffers), ...);
+}
+
 }  // namespace scree

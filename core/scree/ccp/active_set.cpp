@@ -33,10 +33,27 @@ int round_length(int left, bool settled) {
   return left - share < kShortestRound ? left : share;
 }
 
+bool is_worthwhile(std::size_t active, std::size_t contacts) {
+  return static_cast<double>(active) <= kWorthwhile * static_cast<double>(contacts);
+}
+
+/// `context` for the rest of a solve that has made `done` iterations; `done` outlives it.
+SolveContext continued(const SolveContext& context, const int& done) {
+  SolveContext rest = context;
+  rest.max_iterations -= done;
+  if (context.on_iteration) {
+    rest.on_iteration = [&](const IterationReport& report) {
+      context.on_iteration({done + report.iteration, report.residual});
+    };
+  }
+  return rest;
+}
+
 }  // namespace
 
 std::size_t ActiveSetSolve::add_violated(std::span<const double> gamma, double tolerance) {
   const CcpProblem& problem = delassus_.problem();
+  w_.resize(problem.bodies());
   delassus_.body_velocities(gamma, w_);
   std::size_t added = 0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
@@ -54,7 +71,6 @@ std::size_t ActiveSetSolve::add_violated(std::span<const double> gamma, double t
 std::size_t ActiveSetSolve::mark_guess(const CcpProblem& problem, const SolveContext& context,
                                        std::span<const double> gamma) {
   delassus_.bind(problem, context.executor);
-  w_.resize(problem.bodies());
   active_.resize(problem.contacts.size());
   std::size_t carrying = 0;
   for (std::size_t i = 0; i < active_.size(); ++i) {
@@ -64,7 +80,8 @@ std::size_t ActiveSetSolve::mark_guess(const CcpProblem& problem, const SolveCon
   return carrying + add_violated(gamma, 0.0);
 }
 
-SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext& context, std::span<double> gamma) {
+SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext& context, std::size_t active,
+                                          std::span<double> gamma) {
   const CcpProblem& problem = delassus_.problem();
   const bool compliant = !problem.compliance.empty();
   index_.clear();
@@ -72,12 +89,13 @@ SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext&
   r_.clear();
   compliance_.clear();
   gamma_.clear();
-  // Room for all: how many are active changes from step to step.
-  index_.reserve(problem.contacts.size());
-  contacts_.reserve(problem.contacts.size());
-  r_.reserve(problem.rows());
-  gamma_.reserve(problem.rows());
-  if (compliant) compliance_.reserve(problem.rows());
+  // Room for all in a small problem, as how many are active changes from step to step; a large one is short of room.
+  const bool large = problem.contacts.size() >= kManyRecords;
+  const std::size_t room = large ? active : problem.contacts.size();
+  make_room(room, index_, contacts_);
+  const std::size_t rows = 3 * room + problem.rows() - problem.contact_rows();
+  make_room(rows, r_, gamma_);
+  if (compliant) make_room(rows, compliance_);
   for (std::uint32_t i = 0; i < active_.size(); ++i) {
     if (active_[i] == 0) continue;
     index_.push_back(i);
@@ -99,6 +117,10 @@ SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext&
   part.contacts = contacts_;
   part.r = r_;
   part.compliance = compliance_;
+  if (large) {
+    delassus_.release_sums();
+    release(w_);
+  }
   const SolveSummary summary = solver.solve(part, context, gamma_);
   for (std::size_t k = 0; k < index_.size(); ++k) store_block(gamma, index_[k], load_block(gamma_, k));
   std::copy(gamma_.begin() + static_cast<std::ptrdiff_t>(part.contact_rows()), gamma_.end(),
@@ -106,22 +128,17 @@ SolveSummary ActiveSetSolve::solve_active(CcpSolver& solver, const SolveContext&
   return summary;
 }
 
-SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext& context, std::size_t active,
+SolveSummary ActiveSetSolve::solve_rounds(CcpSolver& solver, const SolveContext& context, std::size_t& active,
                                           std::span<double> gamma) {
   SolveSummary total;
-  SolveContext round = context;
-  if (context.on_iteration) {
-    round.on_iteration = [&](const IterationReport& report) {
-      context.on_iteration({total.iterations + report.iteration, report.residual});
-    };
-  }
+  SolveContext round = continued(context, total.iterations);
   bool settled = false;
   const bool blocks = !delassus_.problem().blocks.empty();
-  while (active > 0 || blocks) {
+  while (active > 0 ? is_worthwhile(active, active_.size()) : blocks) {
     round.max_iterations = round_length(context.max_iterations - total.iterations, settled);
     total.status = SolveStatus::iteration_limit;
     if (round.max_iterations < 1) break;
-    const SolveSummary done = solve_active(solver, round, gamma);
+    const SolveSummary done = solve_active(solver, round, active, gamma);
     total.iterations += done.iterations;
     total.status = done.status;
     if (done.status == SolveStatus::numerical_failure || done.status == SolveStatus::infeasible) break;
@@ -140,13 +157,17 @@ SolveSummary ActiveSetSolve::solve(CcpSolver& solver, const CcpProblem& problem,
   if (problem.empty()) return {};
   if (problem.contacts.empty()) return solver.solve(problem, context, gamma);
   project_guess(problem, gamma);
-  const std::size_t active = mark_guess(problem, context, gamma);
-  if (static_cast<double>(active) > kWorthwhile * static_cast<double>(problem.contacts.size())) {
+  std::size_t active = mark_guess(problem, context, gamma);
+  SolveSummary total = solve_rounds(solver, context, active, gamma);
+  const bool can_go_on = total.iterations == 0 || total.iterations < context.max_iterations;
+  if (can_go_on && !is_worthwhile(active, problem.contacts.size())) {
     // The workspace is free for the solver's.
     if (problem.contacts.size() >= kManyRecords) *this = {};
-    return solver.solve(problem, context, gamma);
+    SolveSummary whole = solver.solve(problem, continued(context, total.iterations), gamma);
+    whole.iterations += total.iterations;
+    return whole;
   }
-  SolveSummary total = solve_rounds(solver, context, active, gamma);
+  w_.resize(problem.bodies());
   delassus_.body_velocities(gamma, w_);
   total.residual = ccp_residual(delassus_, gamma, w_, partial_);
   if (!std::isfinite(total.residual)) total.status = SolveStatus::numerical_failure;

@@ -30,10 +30,12 @@ class ActiveSetSolve {
   std::size_t add_violated(std::span<const double> gamma, double tolerance);
   /// Marks what the guess does not leave open; returns how many are marked.
   std::size_t mark_guess(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma);
-  /// The rounds, until the part is solved and nothing is missing, or the work is done.
-  SolveSummary solve_rounds(CcpSolver& solver, const SolveContext& context, std::size_t active,
+  /// The rounds, until the part is solved and nothing is missing, or the work is done, or so much of the problem is `active`
+  /// that the rest is better solved with it.
+  SolveSummary solve_rounds(CcpSolver& solver, const SolveContext& context, std::size_t& active,
                             std::span<double> gamma);
-  SolveSummary solve_active(CcpSolver& solver, const SolveContext& context, std::span<double> gamma);
+  SolveSummary solve_active(CcpSolver& solver, const SolveContext& context, std::size_t active,
+                            std::span<double> gamma);
 
   DelassusOperator delassus_;  ///< of the whole problem
   std::vector<char> active_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "scree/base/release.hpp"
+
 namespace scree {
 
 namespace {
@@ -19,6 +21,8 @@ void ContactPartition::build(const CcpProblem& problem) {
     return std::array{problem.blocks[unit - contacts].a, problem.blocks[unit - contacts].b};
   };
   const auto movable = [&](std::uint32_t body) { return problem.inverse_mass[body] > 0.0; };
+  make_room(m, slots_);
+  make_room(n + 1, first_slot_, last_run_, current_slot_);
   slots_.resize(m);
   first_slot_.assign(n + 1, 0);
   last_run_.assign(n, kNoRun);
@@ -52,6 +56,7 @@ void ContactPartition::build(const CcpProblem& problem) {
     slots_[i].a = slot_of(a, run);
     slots_[i].b = slot_of(b, run);
   }
+  if (m >= kManyRecords) release(last_run_, current_slot_);
 }
 
 }  // namespace scree

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 
 namespace scree {
@@ -31,9 +32,8 @@ void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor)
   problem_ = &problem;
   executor_ = executor;
   partition_.build(problem);
-  slots_.resize(partition_.slot_count());
-  w_.resize(problem.bodies());
   partial_.resize(Executor::chunk_count(problem.units(), kGrain));
+  make_room(problem.units(), traces_);
   traces_.resize(problem.units());
   for_chunks(problem.units(), [&](std::size_t first, std::size_t last) {
     for_units(
@@ -42,8 +42,12 @@ void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor)
   });
 }
 
+void DelassusOperator::release_sums() { release(slots_, w_); }
+
 void DelassusOperator::body_velocities(std::span<const double> gamma, std::span<Twist> w) {
   if (!problem_->matrix.empty()) return;
+  make_room(partition_.slot_count(), slots_);
+  slots_.resize(partition_.slot_count());
   for_chunks(slots_.size(), [&](std::size_t first, std::size_t last) {
     std::fill(slots_.begin() + static_cast<std::ptrdiff_t>(first), slots_.begin() + static_cast<std::ptrdiff_t>(last),
               Twist{});
@@ -105,11 +109,13 @@ void DelassusOperator::row_velocities(std::span<const Twist> w, std::span<const 
 }
 
 void DelassusOperator::apply(std::span<const double> gamma, std::span<double> out) {
+  w_.resize(problem_->bodies());
   body_velocities(gamma, w_);
   row_velocities(w_, gamma, out);
 }
 
 double DelassusOperator::objective(std::span<const double> gamma) {
+  w_.resize(problem_->bodies());
   body_velocities(gamma, w_);
   const bool compliant = !problem_->compliance.empty();
   for_chunks(problem_->units(), [&](std::size_t first, std::size_t last) {

@@ -54,6 +54,9 @@ class DelassusOperator {
   /// 1/2 gamma^T N gamma + r^T gamma [J].
   [[nodiscard]] double objective(std::span<const double> gamma);
 
+  /// Frees what the calls above work with; they make it anew.
+  void release_sums();
+
   /// Runs body(first, last) over chunks of `count` items, on the executor if
   /// there is one.
   template <class Body>

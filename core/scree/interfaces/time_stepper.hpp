@@ -33,6 +33,8 @@ class StepServices {
   virtual SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) = 0;
   [[nodiscard]] virtual const Materials& materials() const = 0;
   [[nodiscard]] virtual const Executor& executor() const = 0;
+  /// Tells that the step is about to change bodies; see TimeStepper::announces_motion().
+  virtual void before_motion() {}
 };
 
 /// What a step did. Numerical outcomes are data, not exceptions.
@@ -59,6 +61,9 @@ class TimeStepper : public Plugin {
   /// True when contacts resist rolling and spinning (ContactMaterial::rolling_friction, spinning_friction). A scene that
   /// sets them for a stepper that does not is refused.
   [[nodiscard]] virtual bool resists_rolling() const { return false; }
+  /// True when step() calls StepServices::before_motion() once, before it first changes a body. The host then copies what
+  /// undoes a failed step only there, when the contact problem and its solver have given their memory back.
+  [[nodiscard]] virtual bool announces_motion() const { return false; }
 
   /// Advances the dynamic and kinematic bodies from `time` to `time + dt` [s].
   /// dt is the outer step; a scheme may divide it.

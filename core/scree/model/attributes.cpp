@@ -34,6 +34,10 @@ AttributeId Attributes::id(std::string_view name) const {
   throw std::out_of_range{"no body attribute '" + std::string{name} + "' was declared"};
 }
 
+void Attributes::reserve(std::size_t bodies) {
+  for (std::vector<double>& column : columns_) column.reserve(bodies);
+}
+
 void Attributes::append_body() {
   for (AttributeId id = 0; id < infos_.size(); ++id) columns_[id].push_back(infos_[id].initial);
   ++bodies_;

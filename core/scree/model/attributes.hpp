@@ -42,6 +42,8 @@ class Attributes {
   [[nodiscard]] const AttributeInfo& info(AttributeId id) const { return infos_[id]; }
   [[nodiscard]] std::size_t count() const { return infos_.size(); }
 
+  /// Makes room for `bodies` bodies.
+  void reserve(std::size_t bodies);
   /// Adds one body at the end with the initial values.
   void append_body();
   /// Keeps the bodies with keep[i] != 0, in order.

@@ -61,6 +61,12 @@ BodyId BodyStore::add(const NewBody& body) {
   return next_id_++;
 }
 
+void BodyStore::reserve(std::size_t count) {
+  const auto fit = [count](auto&... column) { (column.reserve(count), ...); };
+  fit(id_, motion_, shape_, material_, position_, orientation_, velocity_, angular_velocity_, mass_, inertia_, radius_);
+  attributes_.reserve(count);
+}
+
 void BodyStore::remove(std::span<const char> remove) {
   SCREE_REQUIRE(remove.size() == size(), "BodyStore::remove needs one flag per body");
   std::vector<char> keep(remove.size());

@@ -32,6 +32,8 @@ class BodyStore {
   /// Adds a body and returns its id. References and spans taken before are
   /// invalid afterwards.
   BodyId add(const NewBody& body);
+  /// Makes room for `count` bodies in all, exactly: a column that grows by itself doubles.
+  void reserve(std::size_t count);
   /// Removes the bodies with remove[i] != 0, keeping the order of the others.
   void remove(std::span<const char> remove);
 

@@ -48,6 +48,13 @@ void append(std::vector<T>& buffer, const std::vector<T>& items, std::uint32_t& 
   buffer.insert(buffer.end(), items.begin(), items.end());
 }
 
+/// Room for `more` items. A feed adds a shape for every particle: a quarter is enough to grow by.
+template <class T>
+void grow_for(std::size_t more, std::vector<T>& buffer) {
+  const std::size_t needed = buffer.size() + more;
+  if (needed > buffer.capacity()) buffer.reserve(needed + needed / 4);
+}
+
 /// Half extents of a disc of radius r with unit axis a, along the world's axes.
 Vec3 disc_extent(const Vec3& a, double r) {
   const auto side = [&](double c) { return r * std::sqrt(std::max(0.0, 1.0 - c * c)); };
@@ -80,13 +87,13 @@ const char* to_string(ShapeKind kind) {
 
 std::uint32_t ShapeSet::add(const ShapeData& data) {
   Shape shape;
-  shape.name = data.name;
   shape.volume = data.volume;
   shape.unit_inertia = data.unit_inertia;
-  shape.body_to_shape = data.body_to_shape;
   shape.equivalent_radius = std::cbrt(3.0 * data.volume / (4.0 * std::numbers::pi));
   shape.first_primitive = static_cast<std::uint32_t>(primitives_.size());
   shape.primitive_count = static_cast<std::uint32_t>(data.primitives.size());
+  grow_for(data.primitives.size(), primitives_);
+  grow_for(1, shapes_);
   for (const PrimitiveData& part : data.primitives) {
     Primitive primitive = part.primitive;
     append(spheres_, part.spheres, primitive.first_sphere, primitive.sphere_count);
@@ -100,13 +107,35 @@ std::uint32_t ShapeSet::add(const ShapeData& data) {
     shape.bounding_radius = std::max(shape.bounding_radius, norm(primitive.local.position) + primitive.bounding_radius);
     primitives_.push_back(primitive);
   }
-  shapes_.push_back(std::move(shape));
-  return static_cast<std::uint32_t>(shapes_.size() - 1);
+  const auto index = static_cast<std::uint32_t>(shapes_.size());
+  shapes_.push_back(shape);
+  write_down(index, data.name, data.body_to_shape);
+  return index;
+}
+
+void ShapeSet::write_down(std::uint32_t shape, std::string_view name, const Pose& body_to_shape) {
+  if (name.empty() && body_to_shape == Pose{}) return;
+  written_.push_back({shape, std::string{name}, body_to_shape});
+}
+
+const ShapeSet::Written* ShapeSet::written(std::uint32_t shape) const {
+  const auto found = std::ranges::lower_bound(written_, shape, {}, &Written::shape);
+  return found != written_.end() && found->shape == shape ? &*found : nullptr;
+}
+
+std::string_view ShapeSet::name(std::uint32_t shape) const {
+  const Written* const known = written(shape);
+  return known == nullptr ? std::string_view{} : known->name;
+}
+
+Pose ShapeSet::body_to_shape(std::uint32_t shape) const {
+  const Written* const known = written(shape);
+  return known == nullptr ? Pose{} : known->body_to_shape;
 }
 
 std::int64_t ShapeSet::find(std::string_view name) const {
-  const auto found = std::find_if(shapes_.begin(), shapes_.end(), [&](const Shape& s) { return s.name == name; });
-  return found == shapes_.end() ? -1 : found - shapes_.begin();
+  const auto found = std::ranges::find(written_, name, &Written::name);
+  return found == written_.end() ? -1 : std::int64_t{found->shape};
 }
 
 Aabb bounds(const ShapeSet& shapes, const Primitive& primitive, const Pose& world) {

@@ -60,12 +60,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// A shape: primitives, and what a body of it weighs per unit of density.
 struct Shape {
-  std::string name;
   std::uint32_t first_primitive = 0, primitive_count = 0;
   double volume = 0.0;             ///< of the solid [m3]
   Vec3 unit_inertia;               ///< principal moments for a density of 1 [m5]
-  Pose body_to_shape;              ///< where the body frame (centre of mass, principal axes)
-                                   ///< sits in the shape as written
   double bounding_radius = 0.0;    ///< about the centre of mass [m]; infinite with a plane
   double equivalent_radius = 0.0;  ///< of the sphere of equal volume [m]
 };
@@ -86,7 +83,7 @@ struct ShapeData {
   std::vector<PrimitiveData> primitives;  ///< their local poses are in the body frame
   double volume = 0.0;                    ///< [m3]
   Vec3 unit_inertia;                      ///< [m5]
-  Pose body_to_shape;                     ///< [m]
+  Pose body_to_shape;                     ///< as ShapeSet::body_to_shape() [m]
 };
 
 /// All shapes of a simulation. Shapes are only ever added.
@@ -106,12 +103,26 @@ class ShapeSet {
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
   /// The index of a shape by name, or -1.
   [[nodiscard]] std::int64_t find(std::string_view name) const;
+  /// Empty for a shape without one.
+  [[nodiscard]] std::string_view name(std::uint32_t shape) const;
+  /// Where the body frame (centre of mass, principal axes) sits in the shape as written [m].
+  [[nodiscard]] Pose body_to_shape(std::uint32_t shape) const;
 
   void save(StateWriter& out) const;
   void load(const StateReader& in);
 
  private:
+  /// What few shapes have: those of a feed, one a particle, go without.
+  struct Written {
+    std::uint32_t shape = 0;
+    std::string name;
+    Pose body_to_shape;
+  };
+  void write_down(std::uint32_t shape, std::string_view name, const Pose& body_to_shape);
+  [[nodiscard]] const Written* written(std::uint32_t shape) const;
+
   std::vector<Shape> shapes_;
+  std::vector<Written> written_;  // in order of shape
   std::vector<Primitive> primitives_;
   std::vector<Sphere> spheres_;
   std::vector<Vec3> vertices_;

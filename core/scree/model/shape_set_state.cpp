@@ -44,13 +44,14 @@ void ShapeSet::save(StateWriter& out) const {
   integers.clear();
   doubles.clear();
   std::string names;
-  for (const Shape& s : shapes_) {
+  for (std::uint32_t k = 0; k < shapes_.size(); ++k) {
+    const Shape& s = shapes_[k];
     integers.insert(integers.end(), {s.first_primitive, s.primitive_count});
     doubles.push_back(s.volume);
     put(doubles, s.unit_inertia);
-    put(doubles, s.body_to_shape);
+    put(doubles, body_to_shape(k));
     doubles.insert(doubles.end(), {s.bounding_radius, s.equivalent_radius});
-    names += s.name + '\n';
+    names.append(name(k)) += '\n';
   }
   out.write("shape_integers", std::span<const std::uint64_t>{integers});
   out.write("shape_doubles", std::span<const double>{doubles});
@@ -104,18 +105,18 @@ void ShapeSet::load(const StateReader& in) {
   shapes_.resize(si.size() / 2);
   require_size(sd.size(), shapes_.size() * kShapeDoubles);
   std::size_t at = 0;
+  written_.clear();
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     const std::size_t end = names.find('\n', at);
     if (end == std::string::npos) require_size(k, shapes_.size());
     const double* d = sd.data() + k * kShapeDoubles;
-    shapes_[k] = {names.substr(at, end - at),
-                  static_cast<std::uint32_t>(si[2 * k]),
+    shapes_[k] = {static_cast<std::uint32_t>(si[2 * k]),
                   static_cast<std::uint32_t>(si[2 * k + 1]),
                   d[0],
                   vector_at(d + 1),
-                  pose_at(d + 4),
                   d[11],
                   d[12]};
+    write_down(static_cast<std::uint32_t>(k), std::string_view{names}.substr(at, end - at), pose_at(d + 4));
     at = end + 1;
   }
   const std::vector<double> spheres = in.doubles("spheres");

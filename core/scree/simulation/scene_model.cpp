@@ -126,7 +126,7 @@ SceneBody read_body(SceneModel& model, const Options& o) {
   body.material = find_material(model.materials, o.text("material"), o, "material");
   body.shape = shape_record(model, find_shape(model, o), body.motion, o.boolean("collides"));
   const Shape& shape = model.shapes.shapes()[body.shape];
-  body.pose = pose_of(o) * shape.body_to_shape;
+  body.pose = pose_of(o) * model.shapes.body_to_shape(body.shape);
   body.radius = shape.equivalent_radius;
   if (body.motion == Motion::fixed) {
     for (const char* key : {"velocity", "angular_velocity"}) {

@@ -122,7 +122,7 @@ NamedBody SetupServices::body(std::string_view name) const {
     if (!body.name.empty()) known.push_back(body.name);
     // Bodies of the scene are added first and in order, so that their ids are known before they exist.
     if (body.name == name)
-      return {static_cast<BodyId>(i), body.body.pose, context_.model.shapes.shapes()[body.body.shape].name};
+      return {static_cast<BodyId>(i), body.body.pose, std::string{context_.model.shapes.name(body.body.shape)}};
   }
   throw_unknown(*part_, "body", name, known);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scree/base/release.hpp"
 #include "scree/simulation/simulation_state.hpp"
 
 namespace scree {
@@ -14,6 +15,7 @@ constexpr std::size_t kManyBorn = 1000;  // in a step
 
 void StepBackup::keep(const BodyStore& bodies) {
   const BodyView view = bodies.view();
+  kept = true;
   position.assign(view.position.begin(), view.position.end());
   orientation.assign(view.orientation.begin(), view.orientation.end());
   velocity.assign(view.velocity.begin(), view.velocity.end());
@@ -25,7 +27,13 @@ void StepBackup::keep(const BodyStore& bodies) {
   }
 }
 
+void StepBackup::forget() {
+  kept = false;
+  if (position.size() >= kManyRecords) *this = {};
+}
+
 void StepBackup::restore(BodyStore& bodies) const {
+  if (!kept) return;  // nothing has changed yet
   const BodyState state = bodies.state();
   std::copy(position.begin(), position.end(), state.position.begin());
   std::copy(orientation.begin(), orientation.end(), state.orientation.begin());
@@ -50,9 +58,10 @@ void Simulation::State::feed_sources() {
     births.expect(static_cast<BodyIndex>(bodies.size()), source.info);
     services->serve(source.info);
     guarded(source.info, ErrorKind::diverged, [&] { source.plugin->emit(bodies.view(), time(), time_step, born); });
+    if (born.size() > kManyBorn) bodies.reserve(bodies.size() + born.size());
     for (NewBody& body : born) add(std::move(body));
     // A bed of all particles at once is not kept twice for the rest of the run.
-    if (born.size() > kManyBorn) std::vector<NewBody>{}.swap(born);
+    if (born.size() > kManyBorn) release(born);
   }
   fed_this_step = true;
 }
@@ -117,10 +126,11 @@ void Simulation::State::remove_bodies(double at) {
 }
 
 StepSummary Simulation::State::take_step() {
-  backup.keep(bodies);
+  if (!parts.stepper.plugin->announces_motion()) backup.keep(bodies);
   try {
     const double end = static_cast<double>(steps + 1) * time_step;
     const StepSummary summary = advance();
+    if (!backup.kept) backup.keep(bodies);  // the stepper had nothing to move
     check_motion();
     host->tap_next({});
     advance_fields(end);
@@ -128,9 +138,11 @@ StepSummary Simulation::State::take_step() {
     remove_bodies(end);
     ++steps;
     fed_this_step = false;
+    backup.forget();
     return summary;
   } catch (...) {
     backup.restore(bodies);
+    backup.forget();
     failed = true;
     throw;
   }

@@ -40,6 +40,7 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   for (const Part<NarrowPhase>& narrow : parts.narrow) chain.push_back(narrow.plugin.get());
   pipeline.emplace(model.shapes, *parts.broad.plugin, std::move(chain), executor);
   host.emplace(parts, *pipeline, model.materials, executor, timer);
+  host->on_motion([this] { backup.keep(bodies); });
   if (!model.simulation.boolean("allow_overlap")) host->watch_births(births, model.bodies);
   check_stepper_needs(parts, model, *pipeline, bodies.view());
   check_overlap();

@@ -16,8 +16,9 @@
 
 namespace scree {
 
-/// What a step changes of the bodies, kept at its beginning, so that a step that fails can be undone.
+/// What a step changes of the bodies, kept before it does, so that a step that fails can be undone.
 struct StepBackup {
+  bool kept = false;                   // in this step
   std::vector<Vec3> position;          // [m]
   std::vector<Quat> orientation;       // [1]
   std::vector<Vec3> velocity;          // [m/s]
@@ -25,6 +26,8 @@ struct StepBackup {
   std::vector<std::vector<double>> attributes;
 
   void keep(const BodyStore& bodies);
+  /// For the next step. In large scenes the memory is freed.
+  void forget();
   void restore(BodyStore& bodies) const;
 };
 

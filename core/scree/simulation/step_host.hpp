@@ -36,6 +36,9 @@ class StepHost final : public StepServices {
   SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) override;
   [[nodiscard]] const Materials& materials() const override { return materials_; }
   [[nodiscard]] const Executor& executor() const override { return executor_; }
+  void before_motion() override { on_motion_(); }
+  /// What before_motion() calls.
+  void on_motion(std::function<void()> action) { on_motion_ = std::move(action); }
   /// Shows the next problem that is posed to `tap`, which may be empty, and no other one.
   void tap_next(ProblemTap tap) { tap_ = std::move(tap); }
 
@@ -49,6 +52,7 @@ class StepHost final : public StepServices {
   BirthCheck* births_ = nullptr;
   std::span<const SceneBody> known_;
   ProblemTap tap_;
+  std::function<void()> on_motion_ = [] {};
 };
 
 }  // namespace scree

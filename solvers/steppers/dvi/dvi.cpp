@@ -54,7 +54,9 @@ StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double ti
   summary.contacts = assembly_.contacts().size();
   measure_overlap(bodies.view, summary);
   summary.solve = solve(services, bodies.view, summary, dt);
+  services.before_motion();
   move(bodies, services.executor(), dt);
+  if (velocity_.size() >= kManyRecords) release(velocity_, angular_velocity_, gyroscopic_);
   return summary;
 }
 
@@ -138,6 +140,7 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
     delassus_.bind(problem, &services.executor());
     w_.resize(problem.bodies());
     delassus_.body_velocities(gamma_, w_);
+    if (problem.contacts.size() >= kManyRecords) delassus_ = {};
   }
   keep_results(problem);
   remember(bodies, dt);

@@ -36,6 +36,7 @@ class Dvi final : public TimeStepper {
 
   [[nodiscard]] bool needs_ccp_solver() const override { return true; }
   [[nodiscard]] bool resists_rolling() const override { return true; }
+  [[nodiscard]] bool announces_motion() const override { return true; }
   StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) override;
   [[nodiscard]] ContactView contacts() const override;
   void save(StateWriter& out) const override;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "scree/base/release.hpp"
 #include "scree/math/aabb.hpp"
 
 namespace scree::dvi {
@@ -28,14 +29,17 @@ void SpatialOrder::build(const BodyView& bodies, std::span<const Contact> contac
     number_[c.a] = kTouched;
     number_[c.b] = kTouched;
   }
+  make_room(bodies.size(), coded_, scratch_);
   encode(bodies);
   sort_by_code();
   bodies_.clear();
+  bodies_.reserve(coded_.size());
   for (const Coded& c : coded_) bodies_.push_back(c.body);
   for (BodyIndex i = 0; i < bodies.size(); ++i) {
     if (number_[i] == kTouched && bodies.motion[i] != Motion::dynamic) bodies_.push_back(i);
   }
   for (std::uint32_t k = 0; k < bodies_.size(); ++k) number_[bodies_[k]] = k;
+  if (bodies.size() >= kManyRecords) release(coded_, scratch_);
 }
 
 void SpatialOrder::encode(const BodyView& bodies) {
