@@ -6,6 +6,7 @@
 
 #include "command_line.hpp"
 #include "scree/base/error.hpp"
+#include "scree/base/release.hpp"
 
 namespace {
 
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   // A full disk and a closed pipe become errors of the write, with a sentence, instead of the program's end.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  scree::map_large_blocks();
   try {
     const int exit_code = scree::run_command_line(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 
 namespace scree::sphere_cluster {
@@ -10,6 +11,8 @@ void SolidSet::add(const ShapeSet& from, std::size_t first_new) {
   SCREE_REQUIRE(first_new <= solids.size(), "narrow phase sphere_cluster: bind() left out primitives");
   shapes = &from;
   const auto primitives = from.primitives();
+  grow_to(primitives.size(), solids);
+  grow_to(from.spheres().size() + primitives.size(), spheres);  // single spheres come on top
   for (std::size_t i = solids.size(); i < primitives.size(); ++i) {
     const Primitive& p = primitives[i];
     Solid solid;

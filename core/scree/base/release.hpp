@@ -31,4 +31,17 @@ void make_room(std::size_t count, Buffers&... buffers) {
   (fit(buffers), ...);
 }
 
+/// Room for `count` items in buffers that are filled little by little and kept for a whole run: they grow by an eighth.
+template <class... Buffers>
+void grow_to(std::size_t count, Buffers&... buffers) {
+  const auto fit = [count](auto& buffer) {
+    if (buffer.capacity() < count) buffer.reserve(count + count / 8);
+  };
+  (fit(buffers), ...);
+}
+
+/// Has the allocator map large blocks one by one, so that a block that is freed goes back to the system and leaves no hole: in
+/// large scenes a fifth of the memory would be holes. For a program, at its start.
+void map_large_blocks();
+
 }  // namespace scree

@@ -44,6 +44,11 @@ void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor)
 
 void DelassusOperator::release_sums() { release(slots_, w_); }
 
+void DelassusOperator::release_partition() {
+  release_sums();
+  partition_ = {};
+}
+
 void DelassusOperator::body_velocities(std::span<const double> gamma, std::span<Twist> w) {
   if (!problem_->matrix.empty()) return;
   make_room(partition_.slot_count(), slots_);

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "scree/base/release.hpp"
+
 namespace scree {
 namespace {
 
@@ -48,13 +50,6 @@ void append(std::vector<T>& buffer, const std::vector<T>& items, std::uint32_t& 
   buffer.insert(buffer.end(), items.begin(), items.end());
 }
 
-/// Room for `more` items. A feed adds a shape for every particle: a quarter is enough to grow by.
-template <class T>
-void grow_for(std::size_t more, std::vector<T>& buffer) {
-  const std::size_t needed = buffer.size() + more;
-  if (needed > buffer.capacity()) buffer.reserve(needed + needed / 4);
-}
-
 /// Half extents of a disc of radius r with unit axis a, along the world's axes.
 Vec3 disc_extent(const Vec3& a, double r) {
   const auto side = [&](double c) { return r * std::sqrt(std::max(0.0, 1.0 - c * c)); };
@@ -92,8 +87,8 @@ std::uint32_t ShapeSet::add(const ShapeData& data) {
   shape.equivalent_radius = std::cbrt(3.0 * data.volume / (4.0 * std::numbers::pi));
   shape.first_primitive = static_cast<std::uint32_t>(primitives_.size());
   shape.primitive_count = static_cast<std::uint32_t>(data.primitives.size());
-  grow_for(data.primitives.size(), primitives_);
-  grow_for(1, shapes_);
+  grow_to(primitives_.size() + data.primitives.size(), primitives_);
+  grow_to(shapes_.size() + 1, shapes_);
   for (const PrimitiveData& part : data.primitives) {
     Primitive primitive = part.primitive;
     append(spheres_, part.spheres, primitive.first_sphere, primitive.sphere_count);

@@ -46,9 +46,9 @@ std::vector<Parameter> Apgd::parameters() {
 void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma) {
   delassus_.bind(problem, context.executor);
   packed_.build(delassus_, options_.scaled ? packed::Scaling::block : packed::Scaling::none);
+  if (problem.contacts.size() >= kManyRecords && problem.blocks.empty()) delassus_.release_partition();
   packed_.pack(gamma, x_);
   x_old_ = x_;
-  x_best_ = x_;
   p_.assign(packed_.body_groups(), packed::Twists{});
   p_old_ = p_;
   product_.assign(packed_.has_matrix() ? problem.rows() : 0, 0.0);
@@ -93,16 +93,16 @@ bool Apgd::iterate() {
   return moved && std::isfinite(sums.distance);
 }
 
-// The residual of x_; keeps it when it is the best so far and not above the start.
-void Apgd::look(SolveSummary& summary, double start) {
+// The residual of x_, which is kept in gamma when it is the best so far and not above the start.
+void Apgd::look(SolveSummary& summary, double start, std::span<double> gamma) {
   const double now = residual();
   residual_per_pace_ = now / pace_;
   if (!(now < summary.residual) || objective() > start) return;
   summary.residual = now;
-  packed_.copy(x_, x_best_);
+  packed_.unpack(x_, gamma);
 }
 
-SolveStatus Apgd::descend(const SolveContext& context, SolveSummary& summary) {
+SolveStatus Apgd::descend(const SolveContext& context, SolveSummary& summary, std::span<double> gamma) {
   const double guess = objective(), start = guess + 1e-14 * std::abs(guess);  // up to rounding
   StallWatch watch{packed_.problem().r};
   int next_look = 1, left_out = 0;
@@ -118,7 +118,7 @@ SolveStatus Apgd::descend(const SolveContext& context, SolveSummary& summary) {
       next_look = summary.iterations + options_.check_interval;
     }
     if (looking) {
-      look(summary, start);
+      look(summary, start, gamma);
       left_out = 0;
       next_look = summary.iterations < options_.check_interval ? 2 * summary.iterations
                                                                : summary.iterations + options_.check_interval;
@@ -141,12 +141,8 @@ SolveSummary Apgd::solve(const CcpProblem& problem, const SolveContext& context,
   if (guess_residual <= context.tolerance) return {SolveStatus::converged, 0, guess_residual};
   // Any step downhill beats the guess, whose residual may be small by accident far away.
   SolveSummary summary{SolveStatus::iteration_limit, 0, kInfinity};
-  summary.status = descend(context, summary);
-  if (std::isinf(summary.residual)) {
-    summary.residual = guess_residual;  // the guess was not improved on
-  } else {
-    packed_.unpack(x_best_, gamma);
-  }
+  summary.status = descend(context, summary, gamma);
+  if (std::isinf(summary.residual)) summary.residual = guess_residual;  // the guess was not improved on
   if (!std::isfinite(summary.residual)) summary.status = SolveStatus::numerical_failure;
   if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
   return summary;
@@ -155,7 +151,7 @@ SolveSummary Apgd::solve(const CcpProblem& problem, const SolveContext& context,
 void Apgd::release_workspace() {
   delassus_ = {};
   packed_.release_memory();
-  release(x_.contacts, x_.rows, x_old_.contacts, x_old_.rows, x_best_.contacts, x_best_.rows, p_, p_old_);
+  release(x_.contacts, x_.rows, x_old_.contacts, x_old_.rows, p_, p_old_);
   release(product_, product_old_, y_, product_y_);
 }
 

@@ -66,16 +66,16 @@ class Apgd final : public CcpSolver {
   void spread_velocities(double beta);
   void move_to(double beta);
   bool iterate();
-  void look(SolveSummary& summary, double start);
+  void look(SolveSummary& summary, double start, std::span<double> gamma);
   double residual();
   /// Of x_ [J], once its residual has been computed.
   [[nodiscard]] double objective() const { return 0.5 * quadratic_ + linear_; }
-  SolveStatus descend(const SolveContext& context, SolveSummary& summary);
+  SolveStatus descend(const SolveContext& context, SolveSummary& summary, std::span<double> gamma);
 
   ApgdOptions options_;
   DelassusOperator delassus_;
   packed::PackedProblem packed_;
-  packed::Impulses x_, x_old_, x_best_;        ///< [N s]
+  packed::Impulses x_, x_old_;                 ///< [N s]
   std::vector<packed::Twists> p_, p_old_;      ///< sums of four bodies each [N s]
   std::vector<double> product_, product_old_;  ///< N x, N x_old of problems with a matrix [m/s]
   std::vector<double> y_, product_y_;          ///< y and N y of such problems
