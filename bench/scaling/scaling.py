@@ -139,7 +139,8 @@ def make_tile(program, folder):
 
 
 def repeat(tile, across, along, path):
-    """Writes a bed of across x along tiles side by side. Returns the number of spheres and half its extents [m]."""
+    """Writes a bed of across x along tiles side by side. Returns the number of spheres and half its extents [m]. No two radii
+    are the same bits, so that every sphere has a shape of its own, as those of a feed have."""
     lines = tile.read_text().split("\n")
     side = float(lines[0].split()[1])
     rows = [list(map(float, line.split())) for line in lines[1:] if line.strip()]
@@ -148,8 +149,10 @@ def repeat(tile, across, along, path):
         for i in range(across):
             for j in range(along):
                 x, y = (i - (across - 1) / 2) * side, (j - (along - 1) / 2) * side
+                scale = 1.0 - 1e-10 * (i * along + j)
                 for row in rows:
-                    out.write(f"{row[0] + x!r} {row[1] + y!r} " + " ".join(map(repr, row[2:])) + "\n")
+                    place = (row[0] + x, row[1] + y, row[2], scale * row[3], *row[4:])
+                    out.write(" ".join(map(repr, place)) + "\n")
     return len(rows) * across * along, across * side / 2, along * side / 2
 
 

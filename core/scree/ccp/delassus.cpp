@@ -33,6 +33,10 @@ void DelassusOperator::bind(const CcpProblem& problem, const Executor* executor)
   executor_ = executor;
   partition_.build(problem);
   partial_.resize(Executor::chunk_count(problem.units(), kGrain));
+  if (problem.units() < kManyRecords) {  // in a large problem, who needs the sums makes them
+    slots_.resize(partition_.slot_count());
+    w_.resize(problem.bodies());
+  }
   make_room(problem.units(), traces_);
   traces_.resize(problem.units());
   for_chunks(problem.units(), [&](std::size_t first, std::size_t last) {
