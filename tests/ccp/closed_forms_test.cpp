@@ -75,7 +75,7 @@ Vec3 impulse_on_b(const Bench& bench, const std::vector<double>& gamma, std::siz
   return in_world(bench.problem.contacts[i], load_block(gamma, i));
 }
 
-class closed_forms : public testing::TestWithParam<const char*> {
+class ClosedForms : public testing::TestWithParam<const char*> {
  protected:
   Solved solved(const Bench& bench) {
     Solved s = solve(*solver_named(GetParam()), bench.problem.view(), kTolerance, 1000000);
@@ -85,7 +85,7 @@ class closed_forms : public testing::TestWithParam<const char*> {
   }
 };
 
-class rolling_closed_forms : public closed_forms {
+class RollingClosedForms : public ClosedForms {
  protected:
   void SetUp() override {
     if (!takes_blocks(*solver_named(GetParam()))) GTEST_SKIP() << "takes no blocks";
@@ -102,7 +102,7 @@ std::uint32_t add_sphere(Bench& bench, const Vec3& centre, const Vec3& velocity,
 
 // Two contacts: a sphere spins in the corner of a floor and a wall, slipping on both. N1 + mu N2 = W and N2 = mu N1, so
 // that N1 = W / (1 + mu^2). Both float at mu |u_t|, so that the associated problem has the impulses of exact friction.
-TEST_P(closed_forms, sphere_spinning_in_a_corner_slips_on_floor_and_wall) {
+TEST_P(ClosedForms, sphere_spinning_in_a_corner_slips_on_floor_and_wall) {
   const double mu = 0.4, w0 = 30.0;
   const double floor_impulse = kWeight / (1 + mu * mu), wall_impulse = mu * floor_impulse;
   const double w1 = w0 - kRadius * mu * (floor_impulse + wall_impulse) / kSphereInertia;
@@ -146,7 +146,7 @@ double coulomb_error_of(const Bench& bench, const std::vector<double>& gamma) {
 // Pulled upwards, a sphere in a groove comes free if mu < tan(half). With more friction both states meet Coulomb's
 // conditions, free and wedged by impulses along the line between the contacts, as large as it takes; the associated problem
 // has the wedged one alone.
-TEST_P(closed_forms, groove_lets_go_or_wedges_by_the_angle_of_friction) {
+TEST_P(ClosedForms, groove_lets_go_or_wedges_by_the_angle_of_friction) {
   const double half = 20.0 / 180.0 * std::numbers::pi, rise = 0.01;
   for (const double mu : {0.9 * std::tan(half), 1.1 * std::tan(half)}) {
     const Bench bench = groove(half, mu, rise);
@@ -172,7 +172,7 @@ TEST_P(closed_forms, groove_lets_go_or_wedges_by_the_angle_of_friction) {
 }
 
 // Pressed into the groove it rests; friction takes any part of the weight: N sin + T cos = W / 2.
-TEST_P(closed_forms, groove_carries_the_weight_whatever_friction_does) {
+TEST_P(ClosedForms, groove_carries_the_weight_whatever_friction_does) {
   const double half = 20.0 / 180.0 * std::numbers::pi;
   for (const double mu : {0.0, 0.3, 0.8}) {
     const Bench bench = groove(half, mu, -kG * kStep);
@@ -194,7 +194,7 @@ TEST_P(closed_forms, groove_carries_the_weight_whatever_friction_does) {
 }
 
 // A table on four legs, loaded off its middle: single impulses are not determined, their sum and moments are.
-TEST_P(closed_forms, table_on_four_legs_carries_its_load_with_moments_in_balance) {
+TEST_P(ClosedForms, table_on_four_legs_carries_its_load_with_moments_in_balance) {
   const double mass = 12.0, a = 0.5, b = 0.3, height = 0.7;
   const Vec3 load{0.1, -0.08, 0.0};  // centre of mass off the middle of the legs
   Bench bench;
@@ -221,7 +221,7 @@ TEST_P(closed_forms, table_on_four_legs_carries_its_load_with_moments_in_balance
 
 // Three equal cylinders in a pyramid, the lower two a gap apart: with theta the angle of the upper normals from the
 // vertical, N = W / 2 and T = W / 2 tan(theta / 2) (0.13397 W where they nearly touch); 1.5 W under each lower one.
-TEST_P(closed_forms, three_cylinders_in_a_pyramid_carry_each_other_as_statics_says) {
+TEST_P(ClosedForms, three_cylinders_in_a_pyramid_carry_each_other_as_statics_says) {
   const double length = 0.2, apart = 2 * kRadius * (1 + 1e-9), sine = 0.5 * apart / (2 * kRadius);
   const double cosine = std::sqrt(1 - sine * sine), tangent = sine / (1 + cosine);
   const double across = kMass * (kRadius * kRadius / 4 + length * length / 12);
@@ -251,7 +251,7 @@ TEST_P(closed_forms, three_cylinders_in_a_pyramid_carry_each_other_as_statics_sa
 
 // A sphere that rolls and is held back: v' = -5 mu_r g / (7 R), friction m v', the moment mu_r m g against its turning;
 // whatever length makes rows of angular velocities.
-TEST_P(rolling_closed_forms, rolling_sphere_is_slowed_by_five_sevenths_of_mu_r_g_over_r) {
+TEST_P(RollingClosedForms, rolling_sphere_is_slowed_by_five_sevenths_of_mu_r_g_over_r) {
   const double v0 = 0.3, mu_r = 1e-3, slow = 5 * mu_r * kG / (7 * kRadius), w1 = (v0 - slow * kStep) / kRadius;
   for (const double length : {kRadius, 0.1 * kRadius, 1.0}) {
     Bench bench;
@@ -269,7 +269,7 @@ TEST_P(rolling_closed_forms, rolling_sphere_is_slowed_by_five_sevenths_of_mu_r_g
 }
 
 // On an incline a sphere stays iff tan a <= mu_r / R; the moment then is R m g sin a.
-TEST_P(rolling_closed_forms, sphere_stays_on_an_incline_up_to_the_rolling_angle) {
+TEST_P(RollingClosedForms, sphere_stays_on_an_incline_up_to_the_rolling_angle) {
   const double mu_r = 5e-3;
   for (const double slope : {0.99 * mu_r / kRadius, 1.01 * mu_r / kRadius}) {
     const double angle = std::atan(slope);
@@ -292,7 +292,7 @@ TEST_P(rolling_closed_forms, sphere_stays_on_an_incline_up_to_the_rolling_angle)
 }
 
 // A top on its point: spinning friction takes mu_s m g from I w, and no more than stops it.
-TEST_P(rolling_closed_forms, spinning_friction_slows_a_top_until_it_stops) {
+TEST_P(RollingClosedForms, spinning_friction_slows_a_top_until_it_stops) {
   const double mu_s = 2e-3, slow = mu_s * kWeight / kSphereInertia;
   for (const double w0 : {10.0 * slow, 0.5 * slow}) {
     const double w1 = std::max(0.0, w0 - slow);
@@ -309,8 +309,8 @@ TEST_P(rolling_closed_forms, spinning_friction_slows_a_top_until_it_stops) {
 std::string solver_name(const testing::TestParamInfo<const char*>& info) { return info.param; }
 constexpr const char* kSolvers[] = {"admm",   "apgd", "asgs", "interior_point",
                                     "jacobi", "pgs",  "spg",  "semismooth_newton"};
-INSTANTIATE_TEST_SUITE_P(solvers, closed_forms, testing::ValuesIn(kSolvers), solver_name);
-INSTANTIATE_TEST_SUITE_P(solvers, rolling_closed_forms, testing::ValuesIn(kSolvers), solver_name);
+INSTANTIATE_TEST_SUITE_P(solvers, ClosedForms, testing::ValuesIn(kSolvers), solver_name);
+INSTANTIATE_TEST_SUITE_P(solvers, RollingClosedForms, testing::ValuesIn(kSolvers), solver_name);
 
 }  // namespace
 }  // namespace scree::test
