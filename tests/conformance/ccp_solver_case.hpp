@@ -46,16 +46,14 @@ inline Solved solve(CcpSolver& solver, const CcpProblem& problem, double toleran
   return out;
 }
 
-/// Whether the solver looks at blocks at all: one joint on one body, in both forms. One that does not throws
+/// Whether the solver takes blocks and matrices, which it is asked for with a joint on one body: one that cannot throws
 /// std::logic_error.
 inline bool takes_blocks(CcpSolver& solver) {
   const TestingProblem joint = one_block(1.0, {}, {1.0, -2.0});
-  for (const TestingProblem& t : {joint, with_matrix(joint)}) {
-    try {
-      if (!(ccp_residual(t.view(), solve(solver, t.view(), 1e-9, 1000).gamma) < 0.1)) return false;
-    } catch (const std::logic_error&) {
-      return false;
-    }
+  try {
+    for (const TestingProblem& t : {joint, with_matrix(joint)}) (void)solve(solver, t.view(), 1e-9, 1000);
+  } catch (const std::logic_error&) {
+    return false;
   }
   return true;
 }
