@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -19,10 +21,12 @@
 namespace scree::test {
 namespace {
 
-/// Of the largest speed: five decades below what is compared, as a residual may become a velocity error of a hundred thousand
-/// times its size in these problems (and of its square root where impulse and velocity vanish together).
-constexpr double kTolerance = 1e-10;
-/// Velocities of two solvers may differ by this much of the largest speed, half of it for each.
+/// Of the largest speed: far enough below what is compared, as a residual becomes a velocity error of up to a hundred
+/// thousand times its size in these problems.
+constexpr double kTolerance = 2e-12;
+/// Least conditioning of a problem: below it a residual of kTolerance says too little of the velocities.
+constexpr double kConditioning = 1e-4;
+/// Velocities may differ from those of all solutions by this much of the largest speed.
 constexpr double kAgreement = 1e-6;
 
 std::unique_ptr<CcpSolver> make(const PluginEntry& entry) {
@@ -50,6 +54,41 @@ struct Trial {
   std::vector<double> guess;  ///< may lie outside of what impulses may be
 };
 
+/// The smallest eigenvalue of N over the largest, of those that are not zero, with every unit in its own mass as the judge has
+/// it [1]. A residual may become a velocity error of up to its inverse times its size.
+double conditioning(const CcpProblem& problem) {
+  const std::vector<std::vector<double>> columns = columns_of(problem);
+  DelassusOperator delassus;
+  delassus.bind(problem, nullptr);
+  std::vector<double> root(columns.size(), 0.0);
+  const auto fill = [&](std::size_t first, std::size_t rows, double trace) {
+    for (std::size_t k = first; k < first + rows && trace > 0.0; ++k)
+      root[k] = std::sqrt(static_cast<double>(rows) / trace);
+  };
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) fill(3 * i, 3, delassus.traces()[i]);
+  for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
+    const CcpBlock& block = problem.blocks[i];
+    fill(first_row(problem, block), block.rows, delassus.traces()[problem.contacts.size() + i]);
+  }
+  const auto size = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd n(size, size);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      double value = columns[j][i];
+      if (i == j && !problem.compliance.empty()) value += problem.compliance[i];
+      n(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = root[i] * value * root[j];
+    }
+  }
+  if (size == 0) return 1.0;
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>{n, Eigen::EigenvaluesOnly}.eigenvalues();
+  double least = values.maxCoeff();
+  for (const double value : values) {
+    if (value > 1e-13 * values.maxCoeff()) least = std::min(least, value);
+  }
+  return values.maxCoeff() > 0.0 ? least / values.maxCoeff() : 1.0;
+}
+
 Trial draw_trial() {
   const auto below = [](int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high)); };
   PlantedKind what;
@@ -75,16 +114,6 @@ Trial draw_trial() {
     for (std::size_t k = 0; k < u.size(); ++k) trial.guess[k] = trial.planted.gamma[k] + 0.1 * normal(random);
   }
   return trial;
-}
-
-/// On the limit of friction u_n = mu |u_t|: a residual that leaves |u_t| uncertain leaves u_n mu times as uncertain.
-double largest_coefficient(const CcpProblem& problem) {
-  double largest = 0.0;
-  for (const CcpContact& contact : problem.contacts) largest = std::max(largest, contact.friction);
-  for (const CcpBlock& block : problem.blocks) {
-    if (block.kind == CcpKind::cone) largest = std::max({largest, block.friction, block.spinning, block.rolling});
-  }
-  return largest;
 }
 
 /// Asserts what every solver owes; returns how it ended.
@@ -119,19 +148,20 @@ SolveSummary solve_trial(const PluginEntry& entry, const Trial& trial, int max_i
     error = std::max(error, std::abs(u[k] + problem.r[k] - trial.planted.u[k]));
   }
   RC_LOG() << "error of the velocity: " << error / trial.speed << " of the largest\n";
-  RC_ASSERT(error <= std::max(0.5 * kAgreement, 10.0 * largest_coefficient(problem) * kTolerance) * trial.speed);
+  RC_ASSERT(error <= kAgreement * trial.speed);
   return summary;
 }
 
-// A thousand problems. The long tests give each solver the iterations that it needs, and print where they did not suffice.
+// A thousand problems that are not too ill-conditioned, of 1150 drawn. The long tests give each solver the iterations that it needs, and print where they did not suffice.
 TEST(feasible_problems, solvers_that_report_convergence_agree_and_the_others_say_so) {
-  const int problems = trials(1000);
+  const int problems = trials(1150);
   const bool to_the_end = std::getenv("SCREE_TRIALS") != nullptr;
   ASSERT_EQ(::setenv("RC_PARAMS", ("seed=3 max_success=" + std::to_string(problems)).c_str(), 0), 0);
   std::map<std::string, int> converged;
   int count = 0;
   EXPECT_TRUE(rc::check("feasible problems", [&] {
     const Trial trial = draw_trial();
+    if (!(conditioning(trial.problem.view()) > kConditioning)) return;
     ++count;
     for (const PluginEntry* entry : solvers()) {
       const SolveSummary summary = solve_trial(*entry, trial, to_the_end ? 200000 : 1000);

@@ -1,5 +1,5 @@
-// Cone complementarity problems of every kind with a known solution: impulses and velocities that are complementary are
-// drawn first, and r follows from them. The velocities are those of every solution; the impulses need not be.
+// Contact problems of every kind with a known solution: complementary impulses and velocities are drawn, then r follows. The
+// velocities are those of every solution; the impulses need not be.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,6 @@ struct PlantedKind {
   std::uint64_t seed = 1;
 };
 
-/// A problem and a solution of it.
 struct PlantedProblem {
   TestingProblem problem;
   std::vector<double> gamma;  ///< [N s]
@@ -96,7 +95,6 @@ class Planter {
     if (std::max(block.a, block.b) < what_.immovable) return;
     block.friction = coefficient(), block.spinning = coefficient(), block.rolling = coefficient();
     const std::size_t rows = block.kind == CcpKind::cone ? kConeRows[random_() % 5] : 1 + random_() % 6;
-    // Half of them as mechanics has them, half as nobody has.
     std::vector<CcpRow> jacobian = rows_at_a_point(rows, block.kind == CcpKind::cone, direction(), 0.5 * direction(),
                                                    0.5 * direction(), 0.1 + uniform());
     if (chance(0.5)) {
@@ -172,7 +170,7 @@ class Planter {
   void plant_part(double coefficient, std::size_t count, bool open, double n, double* g, double* u, double& u_n) {
     const double angle = 6.28 * uniform(), across = count == 2 ? std::sin(angle) : 0.0;
     const double along = count == 2 ? std::cos(angle) : chance(0.5) ? 1.0 : -1.0;
-    const bool slides = open || coefficient == 0.0 || chance(0.5);
+    const bool slides = open || coefficient == 0.0 || (coefficient < kSlides && chance(0.5));
     const double speed = slides ? uniform() / std::max(1.0, coefficient) : 0.0;
     const double force = coefficient * n * (slides ? 1.0 : uniform());
     g[0] = force * along, u[0] = -speed * along;
@@ -184,12 +182,14 @@ class Planter {
     const bool open = chance(0.4);
     const double most = std::max({1.0, block.friction, block.spinning, block.rolling});
     g[0] = open ? 0.0 : scale * uniform() / most;
-    u[0] = open && chance(0.5) ? uniform() : 0.0;
+    u[0] = open && (most > kSlides || chance(0.5)) ? 0.1 + uniform() : 0.0;
     if (block.rows >= 2) plant_part(block.friction, block.rows == 2 ? 1 : 2, open, g[0], g + 1, u + 1, u[0]);
     if (block.rows == 6) plant_part(block.spinning, 1, open, g[0], g + 3, u + 3, u[0]);
     if (block.rows >= 5) plant_part(block.rolling, 2, open, g[0], g + block.rows - 2, u + block.rows - 2, u[0]);
   }
 
+  static constexpr double kSlides =
+      10.0;  ///< beyond, what touches sticks: u_n = mu |u_t| has mu times the error of u_t
   PlantedKind what_;
   std::mt19937_64 random_;
   PlantedProblem out_;
