@@ -12,7 +12,7 @@ void SolidSet::add(const ShapeSet& from, std::size_t first_new) {
   shapes = &from;
   const auto primitives = from.primitives();
   grow_to(primitives.size(), solids);
-  grow_to(from.spheres().size() + primitives.size(), spheres);  // single spheres come on top
+  grow_to(from.spheres().size(), spheres);
   for (std::size_t i = solids.size(); i < primitives.size(); ++i) {
     const Primitive& p = primitives[i];
     Solid solid;
@@ -21,19 +21,17 @@ void SolidSet::add(const ShapeSet& from, std::size_t first_new) {
     solid.primitive = static_cast<std::uint32_t>(i);
     solid.size = p.size;
     solid.bounding_radius = p.bounding_radius;
-    solid.first_sphere = static_cast<std::uint32_t>(spheres.size());
-    if (p.kind == ShapeKind::sphere) {
-      spheres.push_back({{}, p.size.x});
-    } else if (p.kind == ShapeKind::sphere_cluster) {
+    if (p.kind == ShapeKind::sphere_cluster) {
+      solid.first = static_cast<std::uint32_t>(spheres.size());
+      solid.sphere_count = p.sphere_count;
       const auto parts = from.spheres().subspan(p.first_sphere, p.sphere_count);
       spheres.insert(spheres.end(), parts.begin(), parts.end());
     } else if (p.kind == ShapeKind::convex_hull) {
       SCREE_REQUIRE(p.face_count > 0 && p.triangle_count > 0, "a convex hull needs its faces and its triangles");
     } else if (p.kind == ShapeKind::triangle_mesh) {
-      solid.mesh = static_cast<std::uint32_t>(meshes.size());
+      solid.first = static_cast<std::uint32_t>(meshes.size());
       meshes.emplace_back(from.vertices(), from.triangles().subspan(p.first_triangle, p.triangle_count));
     }
-    solid.sphere_count = static_cast<std::uint32_t>(spheres.size()) - solid.first_sphere;
     solids.push_back(solid);
   }
 }

@@ -12,14 +12,14 @@
 namespace scree::sphere_cluster {
 
 /// A primitive, reduced. Ranges point into the SolidSet's own buffers.
-struct alignas(64) Solid {
+struct Solid {
   ShapeKind kind = ShapeKind::sphere;
   bool hollow = false;
-  std::uint32_t first_sphere = 0, sphere_count = 0;  ///< of a sphere (one) or a cluster
-  std::uint32_t primitive = 0;                       ///< index into ShapeSet::primitives()
-  std::uint32_t mesh = 0;                            ///< index into meshes, of a triangle mesh
-  Vec3 size;                                         ///< as Primitive::size [m]
-  double bounding_radius = 0.0;                      ///< [m]
+  std::uint32_t first = 0;         ///< its first sphere, of a cluster; its place among the meshes, of a triangle mesh
+  std::uint32_t sphere_count = 0;  ///< of a cluster; a single sphere has all in `size`
+  std::uint32_t primitive = 0;     ///< index into ShapeSet::primitives()
+  Vec3 size;                       ///< as Primitive::size [m]
+  double bounding_radius = 0.0;    ///< [m]
 };
 
 /// True for what is made of spheres.
@@ -31,11 +31,14 @@ struct alignas(64) Solid {
 struct SolidSet {
   const ShapeSet* shapes = nullptr;
   std::vector<Solid> solids;    ///< by primitive
-  std::vector<Sphere> spheres;  ///< single spheres and those of clusters
+  std::vector<Sphere> spheres;  ///< of clusters
   std::vector<MeshTree> meshes;
 
-  [[nodiscard]] std::span<const Sphere> spheres_of(const Solid& s) const {
-    return std::span{spheres}.subspan(s.first_sphere, s.sphere_count);
+  /// The spheres of a round solid; `single` is room for the only one of a sphere, and has to live as long as the result.
+  [[nodiscard]] std::span<const Sphere> spheres_of(const Solid& s, Sphere& single) const {
+    if (s.kind != ShapeKind::sphere) return std::span{spheres}.subspan(s.first, s.sphere_count);
+    single = {{}, s.size.x};
+    return {&single, 1};
   }
   /// Adds the primitives from `first_new` on.
   void add(const ShapeSet& from, std::size_t first_new);

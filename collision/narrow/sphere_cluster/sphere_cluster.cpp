@@ -43,8 +43,9 @@ void collide_spheres(const BoundingBall& a, const BoundingBall& b, ContactWriter
 void collide_clusters(const SolidSet& set, const Solid& a, const Pose& pose_a, const Solid& b, const Pose& pose_b,
                       Scratch& scratch, ContactWriter& write) {
   const Pose a_to_b = inverse(pose_b) * pose_a;
-  const auto of_a = set.spheres_of(a);
-  const auto of_b = set.spheres_of(b);
+  Sphere single_a, single_b;
+  const auto of_a = set.spheres_of(a, single_a);
+  const auto of_b = set.spheres_of(b, single_b);
   scratch.near.clear();
   for (std::uint32_t j = 0; j < of_b.size(); ++j) {
     const double bound = of_b[j].radius + write.reach() + a.bounding_radius;
@@ -96,7 +97,7 @@ template <class Report>
 void touch(const SolidSet& set, const Solid& solid, const Vec3& p, double r, double reach, Scratch& scratch,
            const Report& report) {
   if (solid.kind == ShapeKind::triangle_mesh) {
-    set.meshes[solid.mesh].touch(p, r, reach, scratch.mesh);
+    set.meshes[solid.first].touch(p, r, reach, scratch.mesh);
     for (const MeshTouch& t : scratch.mesh.touches) report(t.feature, t.nearest);
   } else if (solid.kind == ShapeKind::cylinder && solid.hollow) {
     // A sphere whose centre is more than its radius beyond a wall has left the drum.
@@ -114,7 +115,8 @@ void touch(const SolidSet& set, const Solid& solid, const Vec3& p, double r, dou
 void collide_round(const SolidSet& set, const Solid& round, const Pose& pose, const Solid& solid,
                    const Pose& solid_pose, Scratch& scratch, ContactWriter& write) {
   const Pose to_solid = inverse(solid_pose) * pose;
-  const auto spheres = set.spheres_of(round);
+  Sphere single;
+  const auto spheres = set.spheres_of(round, single);
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const double r = spheres[i].radius;
     const Vec3 p = transform(to_solid, spheres[i].centre);

@@ -50,6 +50,7 @@ void DelassusOperator::release_sums() { release(slots_, w_); }
 
 void DelassusOperator::release_partition() {
   release_sums();
+  release(traces_);
   partition_ = {};
 }
 

@@ -56,7 +56,7 @@ class DelassusOperator {
 
   /// Frees what the calls above work with; they make it anew.
   void release_sums();
-  /// Frees partition() as well, for who has made a layout of its own of it. What adds up impulses of bodies is not to be
+  /// Frees partition() and traces() as well, for who has made a layout of its own of them. What adds up impulses of bodies is not to be
   /// called any more.
   void release_partition();
 

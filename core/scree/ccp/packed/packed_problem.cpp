@@ -196,9 +196,9 @@ void PackedProblem::pack(std::span<const double> gamma, Impulses& x) const {
   delassus_->for_chunks(p.contacts.size(), [&](std::size_t first, std::size_t last) {
     const std::size_t quarter = (last - first + 3) / 4;
     for (std::size_t i = first; i < last; ++i) {
-      if (!(delassus_->traces()[i] > 0.0)) continue;
-      put(x.contacts[first / 4 + (i - first) % quarter], (i - first) / quarter,
-          in_world(p.contacts[i], load_block(gamma, i)));
+      const std::size_t group = first / 4 + (i - first) % quarter, lane = (i - first) / quarter;
+      if (!(scale_[group][lane] > 0.0)) continue;
+      put(x.contacts[group], lane, in_world(p.contacts[i], load_block(gamma, i)));
     }
   });
   const std::span<const double> rows = gamma.subspan(p.contact_rows());
@@ -217,8 +217,9 @@ void PackedProblem::unpack(const Impulses& x, std::span<double> gamma) const {
   delassus_->for_chunks(p.contacts.size(), [&](std::size_t first, std::size_t last) {
     const std::size_t quarter = (last - first + 3) / 4;
     for (std::size_t i = first; i < last; ++i) {
-      if (!(delassus_->traces()[i] > 0.0)) continue;
-      const Vec3 g = in_frame(p.contacts[i], get(x.contacts[first / 4 + (i - first) % quarter], (i - first) / quarter));
+      const std::size_t group = first / 4 + (i - first) % quarter, lane = (i - first) / quarter;
+      if (!(scale_[group][lane] > 0.0)) continue;
+      const Vec3 g = in_frame(p.contacts[i], get(x.contacts[group], lane));
       store_block(gamma, i, project_cone3(g, p.contacts[i].friction));
     }
   });
