@@ -73,6 +73,7 @@ void Spg::prepare(const CcpProblem& problem, const SolveContext& context, std::s
   partial_.resize(std::max(packed_.runs(), packed_.body_chunks()));
   search_.start(options_.memory);
   alpha_ = 1.0;
+  hold_ = options_.hold;
   pending_ = 0.0;
   refresh();
 }
@@ -97,7 +98,7 @@ bool Spg::iterate(int iteration, double* residual) {
   pending_ = search_.step(sums.slope, sums.curvature);
   if (pending_ != 1.0) move_slots();  // they were moved by a whole step, which it mostly is
   fresh_ = false;
-  if (iteration % options_.hold == 0) choose_step(iteration / options_.hold, sums);
+  if (iteration % hold_ == 0) choose_step(iteration / hold_, sums);
   return true;
 }
 
@@ -136,6 +137,8 @@ SolveStatus Spg::descend(const SolveContext& context, SolveSummary& summary) {
     double seen = kInfinity;
     bool moving = iterate(k, looking ? &seen : nullptr);
     if (looking) {
+      // Held steps amplify rounding.
+      hold_ = seen < small ? 1 : options_.hold;
       if (!std::isfinite(seen)) return SolveStatus::numerical_failure;
       if (seen > context.tolerance) keep_best(summary, seen, change);
       next_look = k < options_.check_interval ? 2 * k : k + options_.check_interval;

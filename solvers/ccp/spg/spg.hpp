@@ -84,6 +84,7 @@ class Spg final : public CcpSolver {
   std::vector<double> product_, product_d_;  ///< N x, N d of problems with a matrix [m/s]
   std::vector<Sums> sums_;
   std::vector<double> partial_;
+  int hold_ = 1;  ///< iterations that use one spectral step, now
   double alpha_ = 1.0;
   double pending_ = 0.0;  ///< lambda that x and w have not moved by yet; the slots have [1]
   bool fresh_ = true;     ///< w was made from x, not updated
