@@ -15,7 +15,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <map>
 #include <optional>
 #include <string>
@@ -252,4 +254,9 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 }  // namespace scree::bench
 
-int main(int argc, char** argv) { return scree::bench::run({argv + 1, argv + argc}); }
+int main(int argc, char** argv) try {
+  return scree::bench::run({argv + 1, argv + argc});
+} catch (const std::exception& problem) {
+  std::fprintf(stderr, "time_to_residual: %s\n", problem.what());
+  return 2;
+}

@@ -64,6 +64,25 @@ inline double objective_of(const CcpProblem& problem, std::span<const double> ga
   return delassus.objective(gamma);
 }
 
+/// The objective after any number of iterations is not above that of `guess`, projected on the cones.
+inline void expect_never_above(CcpSolver& solver, const CcpProblem& p, const std::vector<double>& guess,
+                               const std::string& what) {
+  std::vector<double> projected = guess;
+  for (std::size_t i = 0; i < p.contacts.size(); ++i) {
+    store_block(projected, i, project_cone3(load_block(guess, i), p.contacts[i].friction));
+  }
+  for (const CcpBlock& block : p.blocks) project_block(block, rows_of(p, block, std::span{projected}));
+  const double start = objective_of(p, projected);
+  for (const int limit : {1, 2, 3, 10}) {
+    std::vector<double> gamma = guess;
+    SolveContext context;
+    context.tolerance = 0.0;
+    context.max_iterations = limit;
+    solver.solve(p, context, gamma);
+    EXPECT_LE(objective_of(p, gamma), start + 1e-12 * std::abs(start)) << what << ", limit " << limit;
+  }
+}
+
 class CcpSolverConformance : public testing::TestWithParam<SolverCase> {
  protected:
   std::unique_ptr<CcpSolver> solver_ = GetParam().make();

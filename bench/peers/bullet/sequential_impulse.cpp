@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <functional>
 #include <numeric>
 #include <string_view>
@@ -142,6 +144,9 @@ int run(const char* file, int repeats) {
 }  // namespace
 }  // namespace scree::bench
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   return scree::bench::run(argc > 1 ? argv[1] : "-", argc > 2 ? std::max(1, std::atoi(argv[2])) : 5);
+} catch (const std::exception& problem) {
+  std::fprintf(stderr, "sequential_impulse: %s\n", problem.what());
+  return 2;
 }

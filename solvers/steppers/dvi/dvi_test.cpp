@@ -5,8 +5,6 @@
 
 #include <random>
 
-#include "support/memory_state.hpp"
-
 namespace scree::test {
 namespace {
 
@@ -231,18 +229,9 @@ TEST(dvi, restart_from_what_was_saved_goes_on_bit_for_bit) {
   fill(half);
   whole.run(60, 2e-3);
   half.run(30, 2e-3);
-  MemoryState state;
-  MemoryWriter writer{state};
-  half.dvi.save(writer);
-
   World resumed;
   fill(resumed);
-  resumed.bodies.position = half.bodies.position;
-  resumed.bodies.orientation = half.bodies.orientation;
-  resumed.bodies.velocity = half.bodies.velocity;
-  resumed.bodies.angular_velocity = half.bodies.angular_velocity;
-  resumed.time = half.time;
-  resumed.dvi.load(MemoryReader{state});
+  resumed.resume(half);
   resumed.run(30, 2e-3);
   EXPECT_EQ(resumed.bodies.position, whole.bodies.position);
   EXPECT_EQ(resumed.bodies.orientation, whole.bodies.orientation);

@@ -3,6 +3,7 @@
 
 #include "dvi.hpp"
 #include "support/fake_step_services.hpp"
+#include "support/memory_state.hpp"
 
 namespace scree::test {
 
@@ -21,6 +22,19 @@ struct World {
   }
   void run(int steps, double h) {
     for (int k = 0; k < steps; ++k) step(h);
+  }
+
+  /// Takes over the motion of a world with the same bodies, and what its stepper saves.
+  void resume(const World& from) {
+    MemoryState state;
+    MemoryWriter writer{state};
+    from.dvi.save(writer);
+    bodies.position = from.bodies.position;
+    bodies.orientation = from.bodies.orientation;
+    bodies.velocity = from.bodies.velocity;
+    bodies.angular_velocity = from.bodies.angular_velocity;
+    time = from.time;
+    dvi.load(MemoryReader{state});
   }
 
   Attributes attributes;
