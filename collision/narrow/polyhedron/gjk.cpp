@@ -1,0 +1,68 @@
+#include "gjk.hpp"
+
+#include <limits>
+
+#include "simplex.hpp"
+
+namespace scree::polyhedron {
+namespace {
+
+/// Nearer than this, in sizes of the smaller solid, direction and distance are left to the separating axes.
+constexpr double kTouching = 1e-8;
+/// The walk ends when the distance is known to this part of itself; it is exact after finitely many corners anyway.
+constexpr double kPrecision = 1e-13;
+constexpr int kMostSteps = 100;
+
+void write_ends(const Simplex& simplex, Distance& out) {
+  Vec3 on_a, on_b;
+  out.count = simplex.count;
+  for (std::uint32_t k = 0; k < simplex.count; ++k) {
+    const SimplexCorner& c = simplex.corner[k];
+    on_a += simplex.weight[k] * c.a;
+    on_b += simplex.weight[k] * (c.a + c.w);
+    out.corner_a[k] = c.of_a;
+    out.corner_b[k] = c.of_b;
+  }
+  out.on_a = on_a;
+  out.on_b = on_b;
+}
+
+}  // namespace
+
+Distance distance(const PlacedPair& pair, double limit) {
+  Distance out;
+  Simplex simplex;
+  Vec3 v = pair.centre_b() - pair.centre_a();
+  const double touching = kTouching * pair.size;
+  double least = std::numeric_limits<double>::infinity();  // squared length of v, once v is a point of B - A
+  for (int step = 0; step < kMostSteps; ++step) {
+    SimplexCorner c;
+    c.of_a = farthest(pair.a, v);
+    c.of_b = pair.lowest_of_b(v);
+    c.a = pair.a.corner(c.of_a);
+    c.w = pair.corner_b(c.of_b) - c.a;
+    const double vw = dot(v, c.w);
+    const double v2 = squared_norm(v);
+    if (vw > 0.0 && vw * vw > limit * limit * v2) return out;
+    // No corner lies deeper than v itself: v is the nearest point.
+    const bool known = simplex.count > 0 && v2 - vw <= kPrecision * v2;
+    if (known || !simplex.add(c)) break;
+    const Vec3 nearer = simplex.reduce();
+    const double d2 = squared_norm(nearer);
+    if (d2 <= touching * touching) {
+      write_ends(simplex, out);
+      out.approach = Approach::touching;
+      return out;
+    }
+    if (d2 >= least) break;  // rounding: no progress any more
+    least = d2;
+    v = nearer;
+  }
+  write_ends(simplex, out);
+  out.length = norm(v);
+  out.normal = v / out.length;
+  out.approach = out.length < limit ? Approach::apart : Approach::beyond;
+  return out;
+}
+
+}  // namespace scree::polyhedron

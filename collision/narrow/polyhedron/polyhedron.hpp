@@ -1,0 +1,23 @@
+// Narrow phase `polyhedron`: several points between boxes, hulls and capsules.
+//
+// The distance by Gilbert, Johnson and Keerthi; the depth by separating axes; the points by clipping faces. Nothing is kept
+// between steps.
+#pragma once
+
+#include "polytope.hpp"
+#include "scree/interfaces/narrow_phase.hpp"
+
+namespace scree {
+
+/// Contacts of boxes, convex hulls and capsules with each other. Features name corners and pairs of edges.
+class Polyhedron : public NarrowPhase {
+ public:
+  [[nodiscard]] bool supports(ShapeKind a, ShapeKind b) const override;
+  void bind(const ShapeSet& shapes, std::size_t first_new_primitive) override;
+  void collide(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) const override;
+
+ private:
+  polyhedron::PolytopeSet polytopes_;
+};
+
+}  // namespace scree
