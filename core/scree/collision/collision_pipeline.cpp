@@ -70,20 +70,31 @@ void CollisionPipeline::bind_new_shapes() {
 }
 
 void CollisionPipeline::check_support(const BodyView& bodies) const {
-  std::array<Holders, kShapeKindCount> present{};
-  std::array<Holders, kShapeKindCount> moving{};
+  // By kind and by group; without groups all bodies are in the first one.
+  using ByGroup = std::array<Holders, CollisionFilter::kMostGroups>;
+  std::array<ByGroup, kShapeKindCount> present{};
+  std::array<ByGroup, kShapeKindCount> moving{};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const Primitive& primitive : shapes_.primitives(shapes_.shapes()[bodies.shape[i]])) {
       if (!primitive.collides) continue;
-      present[index(primitive.kind)].add(i);
-      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive.kind)].add(i);
+      const CollisionGroup group = bodies.collision_group.empty() ? CollisionGroup{0} : bodies.collision_group[i];
+      present[index(primitive.kind)][group].add(i);
+      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive.kind)][group].add(i);
     }
   }
+  const auto can_meet = [&](std::size_t a, std::size_t b) {
+    for (CollisionGroup g = 0; g < CollisionFilter::kMostGroups; ++g) {
+      for (CollisionGroup h = 0; moving[a][g].count > 0 && h < CollisionFilter::kMostGroups; ++h) {
+        if (filter_.groups_meet(g, h) && can_differ(moving[a][g], present[b][h])) return true;
+      }
+    }
+    return false;
+  };
   for (std::size_t a = 0; a < kShapeKindCount; ++a) {
     for (std::size_t b = 0; b < kShapeKindCount; ++b) {
       // Planes never meet planes: both are half spaces without an edge.
       const bool planes = a == index(ShapeKind::plane) && b == index(ShapeKind::plane);
-      if (phase_[a][b] < 0 && !planes && can_differ(moving[a], present[b])) {
+      if (phase_[a][b] < 0 && !planes && can_meet(a, b)) {
         throw unsupported(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
       }
     }
@@ -95,6 +106,7 @@ void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::v
   const auto spin = colliders_.spin();
   const auto box = colliders_.view().box;
   const auto tight = colliders_.tight_box();
+  const bool filtered = filter_.is_active();
   for (std::size_t k = first; k < last; ++k) {
     if (k + kPrefetch < last) {
       __builtin_prefetch(&motion[colliders_.bounded_index(candidates_[k + kPrefetch].a)]);
@@ -107,6 +119,7 @@ void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::v
     const ColliderMotion& ma = motion[a];
     const ColliderMotion& mb = motion[b];
     if (ma.body == mb.body || (!ma.movable && !mb.movable)) continue;
+    if (filtered && !filter_.allows(ma.body, mb.body)) continue;
     // Boxes of spheres are cheaper to compute than to read.
     if (ma.kind == ShapeKind::sphere && mb.kind == ShapeKind::sphere) {
       const double reach = reach_of_spheres(ma, mb, rule_);
@@ -127,9 +140,11 @@ void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::size_t first, s
   const auto spin = colliders_.spin();
   const Pose& pose = view.pose[plane];
   const Vec3 normal = rotate(pose.orientation, {0, 0, 1});
+  const bool filtered = filter_.is_active();
   for (auto other = static_cast<ColliderIndex>(first); other < last; ++other) {
     if (!motion[other].movable && !motion[plane].movable) continue;
     if (motion[other].kind == ShapeKind::plane || motion[other].body == motion[plane].body) continue;
+    if (filtered && !filter_.allows(motion[other].body, motion[plane].body)) continue;
     const double reach = reach_of(motion[other], spin[other], motion[plane], spin[plane], rule_);
     const double height = dot(normal, motion[other].centre - pose.position);
     // Written so that a collider with NaN meets nothing.
@@ -225,6 +240,7 @@ std::span<const Contact> CollisionPipeline::find(const BodyView& bodies, std::sp
   large_ = bodies.size() >= kManyRecords;
   if (large_) release(contacts_);
   rule_ = {dt, settings_.reach_slack};
+  if (filter_.is_active()) filter_.look_up(bodies);
   colliders_.build(shapes_, bodies, velocity, angular_velocity, rule_, executor_);
   counts_ = {colliders_.size(), 0, 0, 0};
   find_pairs(bodies.size());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scree/collision/collider_set.hpp"
+#include "scree/collision/collision_filter.hpp"
 #include "scree/collision/contact.hpp"
 #include "scree/collision/pair_sorter.hpp"
 #include "scree/interfaces/broad_phase.hpp"
@@ -50,7 +51,10 @@ class CollisionPipeline {
   std::span<const Contact> find(const BodyView& bodies, std::span<const Vec3> velocity,
                                 std::span<const Vec3> angular_velocity, double dt);
 
-  /// Checks that every two kinds of which one may move are supported.
+  /// Who meets whom; to be set between steps.
+  [[nodiscard]] CollisionFilter& filter() { return filter_; }
+
+  /// Checks that every two kinds of which one may move, in groups that meet, are supported.
   /// @throws Error (usage) naming the two kinds.
   void check_support(const BodyView& bodies) const;
 
@@ -74,6 +78,7 @@ class CollisionPipeline {
   std::array<std::array<int, kShapeKindCount>, kShapeKindCount> phase_{};
   std::size_t bound_primitives_ = 0;
 
+  CollisionFilter filter_;
   ReachRule rule_;
   ColliderSet colliders_;
   std::vector<CandidatePair> candidates_;

@@ -26,6 +26,9 @@ enum class Motion : std::uint8_t {
   fixed       ///< not at all
 };
 
+/// Index of a group of bodies; the filter of the collision pipeline says which groups meet. 0 is the group `default`.
+using CollisionGroup = std::uint8_t;
+
 /// Read-only spans of equal length n, in order of id. Frame: world, unless said
 /// otherwise.
 struct BodyView {
@@ -41,6 +44,7 @@ struct BodyView {
   std::span<const Vec3> inertia;            ///< principal moments [kg m2], body frame
   std::span<const double> radius;           ///< of the sphere of equal volume [m]
   const Attributes* attributes = nullptr;
+  std::span<const CollisionGroup> collision_group = {};
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
   [[nodiscard]] std::span<const double> attribute(AttributeId column) const { return attributes->column(column); }

@@ -56,6 +56,7 @@ BodyId BodyStore::add(const NewBody& body) {
   mass_.push_back(body.mass);
   inertia_.push_back(body.inertia);
   radius_.push_back(body.radius);
+  collision_group_.push_back(body.collision_group);
   attributes_.append_body();
   for (const auto& [column, value] : body.attributes) attributes_.column(column).back() = value;
   return next_id_++;
@@ -63,7 +64,8 @@ BodyId BodyStore::add(const NewBody& body) {
 
 void BodyStore::reserve(std::size_t count) {
   const auto fit = [count](auto&... column) { (column.reserve(count), ...); };
-  fit(id_, motion_, shape_, material_, position_, orientation_, velocity_, angular_velocity_, mass_, inertia_, radius_);
+  fit(id_, motion_, shape_, material_, position_, orientation_, velocity_, angular_velocity_, mass_, inertia_, radius_,
+      collision_group_);
   attributes_.reserve(count);
 }
 
@@ -82,12 +84,13 @@ void BodyStore::remove(std::span<const char> remove) {
   compact(mass_, keep);
   compact(inertia_, keep);
   compact(radius_, keep);
+  compact(collision_group_, keep);
   attributes_.compact(keep);
 }
 
 BodyView BodyStore::view() const {
-  return {id_,       motion_,           shape_, material_, position_, orientation_,
-          velocity_, angular_velocity_, mass_,  inertia_,  radius_,   &attributes_};
+  return {id_,   motion_,  shape_,  material_,    position_,       orientation_, velocity_, angular_velocity_,
+          mass_, inertia_, radius_, &attributes_, collision_group_};
 }
 
 BodyState BodyStore::state() { return {view(), position_, orientation_, velocity_, angular_velocity_}; }
@@ -104,6 +107,10 @@ std::uint64_t BodyStore::hash() const {
   hash = mix(hash, std::span{velocity_});
   hash = mix(hash, std::span{angular_velocity_});
   hash = mix(hash, std::span{mass_});
+  // Only where groups are used, so that a column of zeros counts as none.
+  if (std::ranges::any_of(collision_group_, [](CollisionGroup g) { return g != 0; })) {
+    hash = mix(hash, std::span{collision_group_});
+  }
   // By name: an observer may have declared columns among the others.
   std::vector<AttributeId> columns;
   for (AttributeId id = 0; id < attributes_.count(); ++id) {
@@ -132,6 +139,7 @@ void BodyStore::save(StateWriter& out) const {
   out.write("mass", std::span<const double>{mass_});
   out.write("inertia", std::span<const Vec3>{inertia_});
   out.write("radius", std::span<const double>{radius_});
+  out.write("collision_group", std::span<const std::uint64_t>{widen(collision_group_)});
   const auto columns = out.group("attributes");
   for (AttributeId c = 0; c < attributes_.count(); ++c) columns->write(attributes_.info(c).name, attributes_.column(c));
 }
@@ -149,9 +157,10 @@ void BodyStore::load(const StateReader& in) {
   mass_ = in.doubles("mass");
   inertia_ = in.vectors("inertia");
   radius_ = in.doubles("radius");
+  collision_group_ = narrow<CollisionGroup>(in.integers("collision_group"));
   const auto same = [n = id_.size()](const auto&... column) { return ((column.size() == n) && ...); };
-  if (!same(motion_, shape_, material_, position_, orientation_, velocity_, angular_velocity_, mass_, inertia_,
-            radius_)) {
+  if (!same(motion_, shape_, material_, position_, orientation_, velocity_, angular_velocity_, mass_, inertia_, radius_,
+            collision_group_)) {
     throw Error{ErrorKind::io, "the checkpoint's columns of bodies differ in length; the file is damaged"};
   }
   attributes_.resize(id_.size());

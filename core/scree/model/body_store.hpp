@@ -15,14 +15,15 @@ class StateWriter;
 /// A body to be added.
 struct NewBody {
   Motion motion = Motion::dynamic;
-  std::uint32_t shape = 0;                                 ///< index into ShapeSet
-  std::uint32_t material = 0;                              ///< index into Materials
-  Pose pose;                                               ///< of the body frame (centre of mass, principal axes) [m]
-  Vec3 velocity;                                           ///< [m/s]
-  Vec3 angular_velocity;                                   ///< [rad/s], world
-  double mass = 1.0;                                       ///< [kg]
-  Vec3 inertia{1, 1, 1};                                   ///< principal moments [kg m2]
-  double radius = 0.0;                                     ///< of the sphere of equal volume [m]
+  std::uint32_t shape = 0;     ///< index into ShapeSet
+  std::uint32_t material = 0;  ///< index into Materials
+  Pose pose;                   ///< of the body frame (centre of mass, principal axes) [m]
+  Vec3 velocity;               ///< [m/s]
+  Vec3 angular_velocity;       ///< [rad/s], world
+  double mass = 1.0;           ///< [kg]
+  Vec3 inertia{1, 1, 1};       ///< principal moments [kg m2]
+  double radius = 0.0;         ///< of the sphere of equal volume [m]
+  CollisionGroup collision_group = 0;
   std::vector<std::pair<AttributeId, double>> attributes;  ///< those that differ from the column's initial value
 };
 
@@ -47,7 +48,7 @@ class BodyStore {
   /// Bodies ever added; the next id.
   [[nodiscard]] BodyId next_id() const { return next_id_; }
 
-  /// A hash of every bit of ids, poses, velocities, masses and attributes, for comparing states. Columns that only
+  /// A hash of every bit of ids, poses, velocities, masses, attributes and collision groups, for comparing states. Columns that only
   /// observers write are left out, so that an observer that adds one leaves it as it is.
   [[nodiscard]] std::uint64_t hash() const;
 
@@ -67,6 +68,7 @@ class BodyStore {
   std::vector<double> mass_;
   std::vector<Vec3> inertia_;
   std::vector<double> radius_;
+  std::vector<CollisionGroup> collision_group_;
   Attributes attributes_;
 };
 

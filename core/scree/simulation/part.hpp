@@ -35,6 +35,7 @@ template <class Interface>
 struct Part {
   PartInfo info;
   Options options;
+  Options core;  ///< what core itself reads of the section, such as `name`
   std::unique_ptr<Interface> plugin;
 };
 

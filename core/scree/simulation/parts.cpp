@@ -40,6 +40,7 @@ Part<Interface> make_part(const SceneTable& table, const PluginCatalog& catalog,
   if (std::find(own_names.begin(), own_names.end(), "name") != own_names.end() && !own.text("name").empty()) {
     part.info.name = own.text("name");
   }
+  part.core = own;
   part.options = validate(table.without(core_keys), entry.parameters, part.info.label());
   part.options.set_type(type);
   std::unique_ptr<Plugin> plugin = guarded(part.info, ErrorKind::usage, [&] { return entry.make(part.options); });

@@ -8,6 +8,7 @@
 #include "scree/config/scene_document.hpp"
 #include "scree/config/suggest.hpp"
 #include "scree/config/validate.hpp"
+#include "scree/simulation/scene_filter.hpp"
 #include "scree/simulation/scene_sections.hpp"
 #include "scree/simulation/shape_builder.hpp"
 
@@ -124,6 +125,7 @@ SceneBody read_body(SceneModel& model, const Options& o) {
   NewBody& body = entry.body;
   body.motion = motion_of(o.text("motion"));
   body.material = find_material(model.materials, o.text("material"), o, "material");
+  body.collision_group = find_collision_group(model, o);
   body.shape = shape_record(model, find_shape(model, o), body.motion, o.boolean("collides"));
   const Shape& shape = model.shapes.shapes()[body.shape];
   body.pose = pose_of(o) * model.shapes.body_to_shape(body.shape);
@@ -181,7 +183,9 @@ SceneModel read_scene_model(const SceneDocument& document) {
   model.output = read_single(root, "output");
   read_materials(root, model);
   read_shapes(root, model);
+  read_collision_groups(root, model);
   read_bodies(root, model);
+  read_excluded_pairs(root, model);
   return model;
 }
 

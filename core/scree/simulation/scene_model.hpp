@@ -38,6 +38,9 @@ struct SceneModel {
   Materials materials;
   ShapeSet shapes;
   std::vector<SceneBody> bodies;
+  std::vector<std::string> collision_groups{"default"};  ///< by CollisionGroup
+  std::vector<NamedOptions> collision_group_options;
+  std::vector<Options> excluded_pair_options;
 };
 
 /// Reads and checks the sections that describe matter. @throws Error (usage, io) at the place in the scene.

@@ -26,6 +26,10 @@ std::vector<Parameter> contact_parameters() {
           Parameter::number("damping", "N s/m", "normal damping of a compliant contact").at_least(0.0).by_default(0.0)};
 }
 
+Parameter group_parameter() {
+  return Parameter::text("collision_group", "name of a [collision_group.NAME], or 'default'").by_default("default");
+}
+
 /// Position and rotation of a part, a primitive or a body.
 std::vector<Parameter> pose_parameters() {
   return {Parameter::vector("position", "m", "of the shape's origin").by_default(Vec3{}),
@@ -112,6 +116,14 @@ std::vector<SceneSection> model_sections() {
       {"material_pair", SectionForm::list, "Contact parameters of two materials.",
        std::vector<Parameter>{Parameter::texts("between", "the two materials").with_count(2)} + contact_parameters()},
       {"shape", SectionForm::named, "A shape: [shape.drum] with `type`.", {}},
+      {"collision_group",
+       SectionForm::named,
+       "A group of bodies: [collision_group.walls]. Two bodies meet when the groups of both collide with the other's.",
+       {Parameter::texts("collides_with", "the groups whose bodies the group's meet; all when left out").optional()}},
+      {"excluded_pair",
+       SectionForm::list,
+       "Two bodies that never touch each other, whatever their groups.",
+       {Parameter::texts("between", "names of the two bodies").with_count(2)}},
       {"body", SectionForm::list, "A body that exists from the start.",
        std::vector<Parameter>{
            Parameter::text("name", "by which parts and messages refer to it").by_default(""),
@@ -122,7 +134,7 @@ std::vector<SceneSection> model_sections() {
                .by_default(Vec3{}),
            Parameter::vector("angular_velocity", "rad/s", "world frame; of a kinematic body for ever")
                .by_default(Vec3{}),
-           Parameter::boolean("collides", "false: nothing touches the body").by_default(true),
+           Parameter::boolean("collides", "false: nothing touches the body").by_default(true), group_parameter(),
            Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
            pose_parameters()}};
 }
@@ -145,7 +157,7 @@ std::vector<SceneSection> part_sections() {
       {"narrow_phase", SectionForm::plugin_list, "Computes contacts; the first that supports a pair gets it.", {name}},
       {"electric_field", SectionForm::plugin_list, "Fields that force fields look up by name.", {name}},
       {"force_field", SectionForm::plugin_list, "Forces on bodies, advanced in this order.", {name}},
-      {"source", SectionForm::plugin_list, "Feeds of bodies.", {name}},
+      {"source", SectionForm::plugin_list, "Feeds of bodies.", {name, group_parameter()}},
       {"sink", SectionForm::plugin_list, "What takes bodies out.", {name}},
       {"observer", SectionForm::plugin_list, "What looks and writes.", {name}},
       {"output",

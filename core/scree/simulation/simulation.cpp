@@ -53,13 +53,17 @@ void Simulation::State::feed_sources() {
   if (fed_this_step) return;  // resumed from a checkpoint that was written in mid-step
   const PhaseTimer::Scope scope{timer, Phase::sources};
   births.start();
-  for (const Part<Source>& source : parts.sources) {
+  for (std::size_t k = 0; k < parts.sources.size(); ++k) {
+    const Part<Source>& source = parts.sources[k];
     born.clear();
     births.expect(static_cast<BodyIndex>(bodies.size()), source.info);
     services->serve(source.info);
     guarded(source.info, ErrorKind::diverged, [&] { source.plugin->emit(bodies.view(), time(), time_step, born); });
     if (born.size() > kManyBorn) bodies.reserve(bodies.size() + born.size());
-    for (NewBody& body : born) add(std::move(body));
+    for (NewBody& body : born) {
+      body.collision_group = source_groups[k];
+      add(std::move(body));
+    }
     // A bed of all particles at once is not kept twice for the rest of the run.
     if (born.size() > kManyBorn) release(born);
   }

@@ -74,6 +74,10 @@ std::string describe(const SceneModel& model, const Parts& parts, bool motion_on
   std::vector<std::string> bodies;
   for (const SceneBody& body : model.bodies) bodies.push_back(to_json_text(body.options, -1));
   append(json, "body", list_json(bodies));
+  append(json, "collision_group", named_json(model.collision_group_options));
+  std::vector<std::string> excluded;
+  for (const Options& pair : model.excluded_pair_options) excluded.push_back(to_json_text(pair, -1));
+  append(json, "excluded_pair", list_json(excluded));
   std::string kind;
   std::vector<std::string> list;
   const auto flush = [&] {
@@ -89,6 +93,9 @@ std::string describe(const SceneModel& model, const Parts& parts, bool motion_on
       shown.set("tolerance", Parameter::Value{parts.solver_tolerance});
       shown.set("max_iterations", Parameter::Value{std::int64_t{parts.solver_iterations}});
       shown.set("active_set", Parameter::Value{parts.active_set});
+    }
+    if (info.kind == Source::kKind) {
+      shown.set("collision_group", Parameter::Value{parts.sources[list.size()].core.text("collision_group")});
     }
     list.push_back(part_json(info, shown));
   });

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "scree/config/scene_document.hpp"
+#include "scree/simulation/scene_filter.hpp"
 #include "scree/simulation/simulation_state.hpp"
 #include "scree/simulation/stepper_needs.hpp"
 
@@ -32,6 +33,8 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   feed.fed.resize(model.materials.size());
   feed.removed.resize(model.materials.size());
 
+  for (const Part<Source>& source : parts.sources) source_groups.push_back(find_collision_group(model, source.core));
+
   services.emplace(SetupContext{model, bodies, parts, executor, time_step, end_time, log, warnings});
   setup_parts();
   add_scene_bodies();
@@ -39,6 +42,7 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   std::vector<NarrowPhase*> chain;
   for (const Part<NarrowPhase>& narrow : parts.narrow) chain.push_back(narrow.plugin.get());
   pipeline.emplace(model.shapes, *parts.broad.plugin, std::move(chain), executor);
+  fill_filter(model, pipeline->filter());
   host.emplace(parts, *pipeline, model.materials, executor, timer);
   host->on_motion([this] { backup.keep(bodies); });
   if (!model.simulation.boolean("allow_overlap")) host->watch_births(births, model.bodies);

@@ -38,6 +38,7 @@ struct Simulation::State {
   Executor executor;
   SceneModel model;
   Parts parts;
+  std::vector<CollisionGroup> source_groups;  // by source
   BodyStore bodies;
   std::vector<std::string> log;
   std::vector<std::string> warnings;
