@@ -63,4 +63,5 @@ function(scree_add_benchmark name)
 endfunction()
 
 include(ScreeExample)
+include(ScreeFuzz)
 include(ScreePlugin)

@@ -24,10 +24,14 @@ class WrongUse(unittest.TestCase):
             self.assertIn(word, done.stderr)
 
     def test_an_unknown_command_lists_the_valid_ones(self):
-        self.assert_refused(["fly"], '"fly"', "run, test, bench, check, build")
+        self.assert_refused(["fly"], '"fly"', "run, test, bench, check, build, fuzz")
 
     def test_an_unknown_preset_lists_the_valid_ones(self):
         self.assert_refused(["build", "quick"], '"quick"', "release", "dev", "asan", "tsan")
+
+    def test_fuzz_lists_its_targets(self):
+        self.assert_refused(["fuzz"], "fuzz_fclib")
+        self.assert_refused(["fuzz", "nothing"], '"nothing"', "fuzz_fclib")
 
     def test_run_without_a_scene_says_what_it_needs(self):
         self.assert_refused(["run"], "scene.toml", "for example")
@@ -37,7 +41,7 @@ class WrongUse(unittest.TestCase):
     def test_help_names_every_command(self):
         done = call([str(ROOT / "dev"), "help"])
         self.assertEqual(done.returncode, 0)
-        for command in ("run", "test", "bench", "check", "build"):
+        for command in ("run", "test", "bench", "check", "build", "fuzz"):
             self.assertIn(f"\n  {command} ", done.stdout)
 
 

@@ -32,6 +32,7 @@ class DelassusOperator {
   /// `executor` may be null: everything runs on the calling thread. Nothing after this asks for memory. @throws
   /// std::logic_error for spans that do not fit each other and blocks with holes between their rows.
   void bind(const CcpProblem& problem, const Executor* executor);
+  void bind(const CcpProblem&& problem, const Executor* executor) = delete;  ///< `problem` has to outlive the use
 
   [[nodiscard]] const CcpProblem& problem() const { return *problem_; }
   [[nodiscard]] const ContactPartition& partition() const { return partition_; }

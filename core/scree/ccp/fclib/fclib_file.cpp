@@ -179,6 +179,7 @@ void write_all(const FclibGroupWriter& top, const FclibProblem& problem) {
   info.write("title", problem.info.title);
   info.write("description", problem.info.description);
   info.write("math_info", problem.info.math_info);
+  for (const FclibAttribute& attribute : problem.info.attributes) info.write(attribute);
   if (!problem.guesses.empty()) {
     const FclibGroupWriter guesses = top.group("guesses");
     guesses.write("number_of_guesses", static_cast<int>(problem.guesses.size()));
@@ -219,7 +220,7 @@ FclibProblem read_fclib_file(const std::filesystem::path& file) {
   read_contacts(in, problem);
   if (in.has("info")) {
     const FclibGroupReader info = in.group("info");
-    problem.info = {info.text("title"), info.text("description"), info.text("math_info")};
+    problem.info = {info.text("title"), info.text("description"), info.text("math_info"), info.attributes()};
   }
   read_answers(top, problem);
   return problem;

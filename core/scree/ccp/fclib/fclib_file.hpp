@@ -2,7 +2,7 @@
 //
 // Groups and datasets, with [ ] for what may be missing:
 //
-//     fclib_local/    W/ [V/ R/]  vectors/{q, mu, [s], [mu_r]}      spacedim  [info/{title, description, math_info}]
+//     fclib_local/    W/ [V/ R/]  vectors/{q, mu, [s], [mu_r]}      spacedim  [info/{title, description, math_info}, attributes]
 //     fclib_global/   M/ H/ [G/]  vectors/{f, w, mu, [b], [mu_r]}   spacedim  [info/]
 //     [guesses/{number_of_guesses, 1/, 2/ ...}]  [solution/]        each {r, [u], [v], [l]}
 //

@@ -63,6 +63,20 @@ TEST_F(FclibFileTest, keeps_a_global_problem_in_every_storage) {
   }
 }
 
+TEST_F(FclibFileTest, keeps_the_attributes_of_the_info) {
+  FclibProblem problem = small_local();
+  problem.info.attributes = {{"big", std::vector<std::int64_t>{std::int64_t{1} << 40}},
+                             {"numberOfInvolvedDS", std::vector<std::int64_t>{99, -1}},
+                             {"program", std::string{"by hand"}},
+                             {"time", std::vector<double>{0.125}}};
+  const std::vector<FclibAttribute> back = through_file(problem).info.attributes;
+  ASSERT_EQ(back.size(), 4u);
+  for (std::size_t k = 0; k < back.size(); ++k) {
+    EXPECT_EQ(back[k].name, problem.info.attributes[k].name);
+    EXPECT_EQ(back[k].value, problem.info.attributes[k].value) << back[k].name;
+  }
+}
+
 TEST_F(FclibFileTest, keeps_guesses_solution_and_what_is_known_of_a_matrix) {
   FclibProblem problem = small_global();
   const FclibSolution first{{1, 2, 3, 4, 5, 6}, {1, 0, 0, 2, 0, 0}, {3, 0, 0, 4, 0, 0}, {7}};

@@ -68,9 +68,16 @@ struct FclibSolution {
   std::vector<double> lambda;  ///< p [N s]
 };
 
-/// Texts about a problem, any may be empty.
+/// What a program noted beside a problem: a name with whole numbers, numbers (of its own unit) or a text.
+struct FclibAttribute {
+  std::string name;
+  std::variant<std::vector<std::int64_t>, std::vector<double>, std::string> value;
+};
+
+/// About a problem; anything may be empty.
 struct FclibInfo {
   std::string title, description, math_info;
+  std::vector<FclibAttribute> attributes = {};  ///< by name
 };
 
 /// A problem with everything that its file says.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scree/ccp/fclib/fclib_problem.hpp"
 #include "scree/state/detail/hdf5_handle.hpp"
 
 namespace scree {
@@ -42,6 +43,8 @@ class FclibGroupReader {
   [[nodiscard]] std::int64_t integer(const std::string& name, std::int64_t least) const;
   /// "" when there is no such text.
   [[nodiscard]] std::string text(const std::string& name) const;
+  /// The attributes of the group, by name; those that are neither numbers nor one text are left out.
+  [[nodiscard]] std::vector<FclibAttribute> attributes() const;
 
  private:
   [[nodiscard]] Handle open(const std::string& name) const;
@@ -64,6 +67,8 @@ class FclibGroupWriter {
   void write(const std::string& name, int value) const { write(name, std::span{&value, 1}); }
   void write(const std::string& name, double value) const { write(name, std::span{&value, 1}); }
   void write(const std::string& name, const std::string& text) const;
+  /// Attaches an attribute to the group.
+  void write(const FclibAttribute& attribute) const;
 
  private:
   void write(const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count, const void* data) const;
