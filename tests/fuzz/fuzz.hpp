@@ -10,6 +10,7 @@
 #include <string>
 
 /// Gives `size` bytes to what is tested. Returns 0; whatever goes wrong ends the program.
+// NOLINTNEXTLINE(readability-identifier-naming): what libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace scree::fuzz {

@@ -10,7 +10,7 @@ namespace {
 
 /// A note, not a table.
 constexpr hssize_t kMostNumbers = 1 << 16;
-constexpr std::size_t kLongestText = 1 << 16;
+constexpr std::size_t kLongestText = 1 << 16, kLongestNumber = 16;  // [byte]
 
 template <class Value>
 bool read_numbers(hid_t attribute, hid_t memory_type, hssize_t count, FclibAttribute& out) {
@@ -41,7 +41,9 @@ bool read_value(hid_t attribute, FclibAttribute& out) {
   const Handle space{H5Aget_space(attribute), H5Sclose};
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
   if (count < 0 || count > kMostNumbers) return false;
-  switch (H5Tget_class(type.get())) {
+  const H5T_class_t kind = H5Tget_class(type.get());
+  if (kind != H5T_STRING && H5Tget_size(type.get()) > kLongestNumber) return false;
+  switch (kind) {
     case H5T_INTEGER:
       return read_numbers<std::int64_t>(attribute, H5T_NATIVE_INT64, count, out);
     case H5T_FLOAT:

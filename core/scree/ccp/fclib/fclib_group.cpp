@@ -11,6 +11,8 @@ namespace scree {
 
 namespace {
 
+constexpr std::size_t kLongestNumber = 16;  // [byte]
+
 std::string kind_of(H5T_class_t type) {
   switch (type) {
     case H5T_INTEGER:
@@ -76,6 +78,8 @@ std::vector<Value> FclibGroupReader::read(const std::string& name, bool integer,
   const H5T_class_t kind = H5Tget_class(type.get());
   at.require(kind == H5T_INTEGER || (kind == H5T_FLOAT && !integer),
              fmt::format("holds {}; {} are needed", kind_of(kind), kind_of(integer ? H5T_INTEGER : H5T_FLOAT)));
+  // HDF5 makes a buffer for numbers of as many bytes as a damaged file says.
+  at.require(H5Tget_size(type.get()) <= kLongestNumber, "holds numbers of no known length; the file is damaged");
   const Handle space{H5Dget_space(dataset.get()), H5Sclose};
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
   // A damaged file must not ask for memory that it cannot fill: compression saves at most a factor of about 1032.

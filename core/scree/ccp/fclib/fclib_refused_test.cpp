@@ -131,6 +131,25 @@ TEST_F(FclibRefused, a_dataset_of_another_kind) {
   EXPECT_EQ(reading(), file_.string() + ": /fclib_local/vectors/q holds text; numbers are needed");
 }
 
+// Found by fuzzing: HDF5 asked for as much memory as the type said.
+TEST_F(FclibRefused, numbers_of_a_gigabyte_each) {
+  write_fclib_file(file_, small_local());
+  {
+    const Handle opened{H5Fopen(file_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+    H5Ldelete(opened.get(), "/fclib_local/vectors/mu", H5P_DEFAULT);
+    const Handle type{H5Tcopy(H5T_IEEE_F64LE), H5Tclose};
+    H5Tset_size(type.get(), std::size_t{1} << 30);
+    const hsize_t count = 2;
+    const Handle space{H5Screate_simple(1, &count, nullptr), H5Sclose};
+    const Handle made{H5Dcreate2(opened.get(), "/fclib_local/vectors/mu", type.get(), space.get(), H5P_DEFAULT,
+                                 H5P_DEFAULT, H5P_DEFAULT),
+                      H5Dclose};
+    ASSERT_TRUE(made.valid());
+  }
+  EXPECT_EQ(reading(),
+            file_.string() + ": /fclib_local/vectors/mu holds numbers of no known length; the file is damaged");
+}
+
 TEST_F(FclibRefused, a_mass_matrix_that_has_no_inverse) {
   const auto reducing = [&](double mass) -> std::string {
     FclibProblem problem = small_global();
