@@ -1,5 +1,7 @@
 // scree plugins [show KIND:NAME]: what is there, from which file, and what it takes.
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -9,6 +11,8 @@
 #include "scene_plugins.hpp"
 #include "scree/config/describe_text.hpp"
 #include "scree/config/suggest.hpp"
+#include "scree/config/validate.hpp"
+#include "scree/interfaces/narrow_phase.hpp"
 
 namespace scree {
 namespace {
@@ -43,6 +47,33 @@ std::string example_of(const PluginHost& host, const std::string& name) {
   return {};
 }
 
+/// The kinds that each kind meets, for a narrow phase that can be made without settings.
+std::string supported_pairs(const PluginEntry& entry) {
+  std::unique_ptr<Plugin> plugin;
+  try {
+    plugin = entry.make(default_options(entry.parameters));
+  } catch (const std::exception&) {
+    return {};  // it has settings without a default: what it supports depends on them
+  }
+  const auto* phase = dynamic_cast<const NarrowPhase*>(plugin.get());
+  if (phase == nullptr) return {};
+  std::string text = "\n  Supported pairs:\n";
+  for (std::size_t a = 0; a < kShapeKindCount; ++a) {
+    std::string others;
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < kShapeKindCount; ++b) {
+      const auto kind = static_cast<ShapeKind>(b);
+      if (!phase->supports(static_cast<ShapeKind>(a), kind)) continue;
+      others += (others.empty() ? "" : ", ") + std::string{to_string(kind)};
+      ++count;
+    }
+    if (count == 0) others = "-";
+    if (count == kShapeKindCount) others = "all kinds";
+    text += fmt::format("    {:<15} {}\n", to_string(static_cast<ShapeKind>(a)), others);
+  }
+  return text;
+}
+
 void show_plugin(const PluginHost& host, const std::string& name) {
   const std::size_t colon = name.find(':');
   if (colon == std::string::npos) {
@@ -52,6 +83,7 @@ void show_plugin(const PluginHost& host, const std::string& name) {
   say("{}:{}\n  {}\n  from {} {}\n", entry.kind, entry.name, entry.help, entry.library, entry.version);
   const std::string parameters = describe_parameters(entry.parameters);
   say("\n{}", parameters.empty() ? "  It takes no settings.\n" : parameters);
+  if (entry.kind == NarrowPhase::kKind) say("{}", supported_pairs(entry));
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ void RunStatistics::add(const StepRecord& step) {
   ++steps_;
   most_contacts_ = std::max(most_contacts_, step.contacts);
   most_bodies_ = std::max(most_bodies_, step.bodies);
+  fallbacks_ += step.fallbacks;
   if (step.contacts == 0) return;
   ++steps_in_contact_;
   const auto contacts = static_cast<double>(step.contacts);
@@ -53,6 +54,7 @@ std::vector<std::pair<std::string, double>> RunStatistics::measures() const {
           {"largest_residual [m/s]", largest_residual_},
           {"mean_penetration_over_radius", contacts_ > 0.0 ? mean_penetration_ / contacts_ : 0.0},
           {"max_penetration [m]", max_penetration_},
+          {"narrow_phase_fallbacks", static_cast<double>(fallbacks_)},
           {"peak_memory [byte]", peak_memory()}};
 }
 

@@ -26,6 +26,7 @@ class RunStatistics {
   std::uint64_t steps_in_contact_ = 0;
   std::uint64_t most_contacts_ = 0;
   std::uint64_t most_bodies_ = 0;
+  std::uint64_t fallbacks_ = 0;
   double contacts_ = 0.0;          // sum over steps [1]
   double iterations_ = 0.0;        // sum over steps with contacts [1]
   double residual_ = 0.0;          // sum over steps with contacts [m/s]

@@ -77,8 +77,10 @@ void Polyhedron::collide(const ColliderView& colliders, std::span<const Collider
 namespace {
 
 void list(scree::PluginList& plugins) {
-  plugins.add<scree::NarrowPhase, scree::Polyhedron>(
-      "polyhedron", "Several points between boxes, convex hulls and capsules, by separating axes and clipping.");
+  plugins
+      .add<scree::NarrowPhase, scree::Polyhedron>(
+          "polyhedron", "Several points between boxes, convex hulls and capsules, by separating axes and clipping.")
+      .default_place = 2;
 }
 
 }  // namespace

@@ -196,9 +196,11 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
 namespace {
 
 void list(scree::PluginList& plugins) {
-  plugins.add<scree::NarrowPhase, scree::SphereCluster>(
-      "sphere_cluster",
-      "Closed forms: spheres and clusters of spheres against all kinds; corners of boxes and others against planes.");
+  plugins
+      .add<scree::NarrowPhase, scree::SphereCluster>("sphere_cluster",
+                                                     "Closed forms: spheres and clusters of spheres against all kinds; "
+                                                     "corners of boxes and others against planes.")
+      .default_place = 1;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // NarrowPhase: from pairs of primitives to contact points.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "scree/collision/collider.hpp"
@@ -29,6 +30,10 @@ class NarrowPhase : public Plugin {
   /// and buffers.
   virtual void collide(const ColliderView& colliders, std::span<const ColliderPair> pairs,
                        ContactBuffer& out) const = 0;
+
+  /// Pairs, since this was made, whose first answer did not hold its own checks, so that the fallback which the phase
+  /// states in its description answered instead. Counted for the summary of a run. Zero for phases that cannot fail.
+  [[nodiscard]] virtual std::uint64_t fallbacks() const { return 0; }
 };
 
 }  // namespace scree

@@ -28,7 +28,7 @@
 namespace scree {
 
 /// Raised whenever an interface of a plugin changes.
-inline constexpr std::uint32_t kPluginAbi = 1;
+inline constexpr std::uint32_t kPluginAbi = 2;
 
 /// One plugin of a library: its name and how to make one.
 struct PluginEntry {
@@ -39,15 +39,17 @@ struct PluginEntry {
   std::function<std::unique_ptr<Plugin>(const Options&)> make;
   std::string library;  ///< file it came from; filled in by the host
   std::string version;  ///< of the library; filled in by the host
+  /// Of a narrow phase: its place in the chain of a scene that names none, the lowest first; 0 keeps it out of that chain.
+  int default_place = 0;
 };
 
 /// Collects the entries of a library.
 class PluginList {
  public:
   /// Adds `Type`, an `Interface`, which is constructed from const Options& (or
-  /// from nothing).
+  /// from nothing), and returns its entry, valid until the next call.
   template <class Interface, class Type>
-  void add(std::string name, std::string help, std::vector<Parameter> parameters = {}) {
+  PluginEntry& add(std::string name, std::string help, std::vector<Parameter> parameters = {}) {
     static_assert(std::is_base_of_v<Interface, Type>, "the plugin must derive from the interface that it is added as");
     entries_.push_back({Interface::kKind,
                         std::move(name),
@@ -61,7 +63,9 @@ class PluginList {
                           }
                         },
                         {},
-                        {}});
+                        {},
+                        0});
+    return entries_.back();
   }
   [[nodiscard]] const std::vector<PluginEntry>& entries() const { return entries_; }
 

@@ -16,7 +16,8 @@ std::vector<CsvColumn> step_columns(const std::vector<std::string>& phases) {
                                  {"status", ""},
                                  {"mean_penetration", "1"},
                                  {"max_penetration", "m"},
-                                 {"kinetic_energy", "J"}};
+                                 {"kinetic_energy", "J"},
+                                 {"fallbacks", ""}};
   for (const std::string& phase : phases) columns.push_back({"seconds_" + phase, "s"});
   return columns;
 }
@@ -29,7 +30,7 @@ StepLog::StepLog(const std::filesystem::path& file, const std::vector<std::strin
 void StepLog::add(const StepRecord& record, std::span<const double> phase_seconds) {
   table_.cell(record.step).cell(record.time).cell(record.bodies).cell(record.contacts).cell(record.iterations);
   table_.cell(record.residual).cell(record.status).cell(record.mean_penetration).cell(record.max_penetration);
-  table_.cell(record.kinetic_energy);
+  table_.cell(record.kinetic_energy).cell(record.fallbacks);
   for (const double seconds : phase_seconds) table_.cell(seconds);
   table_.end_row();
 }

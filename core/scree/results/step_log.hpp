@@ -26,6 +26,7 @@ struct StepRecord {
   double mean_penetration = 0.0;  ///< over closed contacts, relative to the smaller body's radius [1]
   double max_penetration = 0.0;   ///< [m]
   double kinetic_energy = 0.0;    ///< of the dynamic bodies [J]
+  std::uint64_t fallbacks = 0;    ///< pairs that a narrow phase computed by its fallback
 };
 
 /// Writes steps.csv.

@@ -17,6 +17,18 @@ Options core_options(const SceneTable& table, std::string_view section,
   return validate(table.without(plugin_keys), scene_section(section).parameters, "[" + std::string{section} + "]");
 }
 
+/// Calls the factory of an entry, with the options that the part has.
+template <class Interface>
+void make_plugin(Part<Interface>& part, const PluginEntry& entry) {
+  std::unique_ptr<Plugin> plugin = guarded(part.info, ErrorKind::usage, [&] { return entry.make(part.options); });
+  part.plugin.reset(dynamic_cast<Interface*>(plugin.get()));
+  if (part.plugin == nullptr) {
+    throw Error{ErrorKind::usage, part.info.label_with_library() + " is not a " + part.info.kind +
+                                      "; the library registered it under the wrong kind"};
+  }
+  static_cast<void>(plugin.release());
+}
+
 template <class Interface>
 Part<Interface> make_part(const SceneTable& table, const PluginCatalog& catalog, Options* core = nullptr) {
   const std::string kind = Interface::kKind;
@@ -43,14 +55,26 @@ Part<Interface> make_part(const SceneTable& table, const PluginCatalog& catalog,
   part.core = own;
   part.options = validate(table.without(core_keys), entry.parameters, part.info.label());
   part.options.set_type(type);
-  std::unique_ptr<Plugin> plugin = guarded(part.info, ErrorKind::usage, [&] { return entry.make(part.options); });
-  part.plugin.reset(dynamic_cast<Interface*>(plugin.get()));
-  if (part.plugin == nullptr) {
-    throw Error{ErrorKind::usage, part.info.label_with_library() + " is not a " + kind +
-                                      "; the library registered it under the wrong kind"};
-  }
-  static_cast<void>(plugin.release());
+  make_plugin(part, entry);
   return part;
+}
+
+/// The narrow phases of a scene that names none: those that have a place in the chain, with their defaults.
+std::vector<Part<NarrowPhase>> default_chain(const SceneTable& root, const PluginCatalog& catalog) {
+  std::vector<const PluginEntry*> entries;
+  for (const PluginEntry* entry : catalog.entries()) {
+    if (entry->kind == NarrowPhase::kKind && entry->default_place > 0) entries.push_back(entry);
+  }
+  std::ranges::stable_sort(entries, {}, &PluginEntry::default_place);
+  std::vector<Part<NarrowPhase>> chain;
+  for (const PluginEntry* entry : entries) {
+    Part<NarrowPhase>& part = chain.emplace_back();
+    part.info = {entry->kind, entry->name, entry->name, entry->library, entry->version, root.location()};
+    part.options = default_options(entry->parameters);
+    part.options.set_type(entry->name);
+    make_plugin(part, *entry);
+  }
+  return chain;
 }
 
 template <class Interface>
@@ -122,6 +146,7 @@ Parts make_parts(const SceneDocument& document, const PluginCatalog& catalog) {
   }
   parts.broad = make_required<BroadPhase>(root, catalog);
   parts.narrow = make_list<NarrowPhase>(root, catalog);
+  if (parts.narrow.empty()) parts.narrow = default_chain(root, catalog);
   parts.electric = make_list<ElectricField>(root, catalog);
   parts.forces = make_list<ForceField>(root, catalog);
   parts.sources = make_list<Source>(root, catalog);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scree/base/release.hpp"
 #include "scree/simulation/simulation_state.hpp"
@@ -152,8 +153,11 @@ StepSummary Simulation::State::take_step() {
   }
 }
 
-StepRecord Simulation::State::record(const StepSummary& summary) const {
+StepRecord Simulation::State::record(const StepSummary& summary) {
   StepRecord record;
+  std::uint64_t fallbacks_now = 0;
+  for (const Part<NarrowPhase>& phase : parts.narrow) fallbacks_now += phase.plugin->fallbacks();
+  record.fallbacks = fallbacks_now - std::exchange(fallbacks, fallbacks_now);
   record.step = steps;
   record.time = time();
   record.contacts = summary.contacts;
@@ -210,8 +214,23 @@ std::int64_t Simulation::steps_every() const { return state_->model.output.integ
 double Simulation::checkpoint_interval() const { return state_->model.output.number("checkpoint_interval"); }
 std::uint64_t Simulation::seed() const { return static_cast<std::uint64_t>(state_->model.simulation.integer("seed")); }
 
+namespace {
+
+/// Which narrow phases fell back, and how often; no rows when none did.
+ReportTable fallback_table(const std::vector<Part<NarrowPhase>>& phases) {
+  ReportTable table{"pairs that a narrow phase computed by its fallback", {"narrow phase", "pairs"}, {}};
+  for (const Part<NarrowPhase>& phase : phases) {
+    const std::uint64_t pairs = phase.plugin->fallbacks();
+    if (pairs > 0) table.rows.push_back({phase.info.name, std::to_string(pairs)});
+  }
+  return table;
+}
+
+}  // namespace
+
 std::vector<ReportTable> Simulation::report() const {
   std::vector<ReportTable> tables;
+  if (ReportTable table = fallback_table(state_->parts.narrow); !table.rows.empty()) tables.push_back(std::move(table));
   for (const Part<Source>& source : state_->parts.sources) {
     for (ReportTable& table : source.plugin->report()) tables.push_back(std::move(table));
   }

@@ -54,6 +54,7 @@ struct Simulation::State {
   std::uint64_t steps = 0;
   std::uint64_t last_step = 0;  // steps after which the run is done
   bool fed_this_step = false;   // sources of the current step have emitted
+  std::uint64_t fallbacks = 0;  // of the narrow phases, up to the last step
   bool failed = false;          // the last step threw; bodies are those before it
   FeedRecord feed;
   std::vector<RemovedBody> removed;
@@ -76,7 +77,7 @@ struct Simulation::State {
   void advance_fields(double end);
   void observe();
   void remove_bodies(double at);
-  [[nodiscard]] StepRecord record(const StepSummary& summary) const;
+  [[nodiscard]] StepRecord record(const StepSummary& summary);
   void restore_from(const StateReader& in);
   void save_to(StateWriter& out) const;
 };

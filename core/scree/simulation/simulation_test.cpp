@@ -176,6 +176,53 @@ TEST(Simulation, kinds_that_no_narrow_phase_supports_are_refused_when_the_scene_
   EXPECT_NE(refusal(text).find("box"), std::string::npos) << refusal(text);
 }
 
+/// The scene without its narrow phase.
+std::string without_narrow_phase(std::string text) {
+  const std::string section = "[[narrow_phase]]\ntype = 'spheres'\n";
+  return text.erase(text.find(section), section.size());
+}
+
+TEST(Simulation, a_scene_without_a_narrow_phase_gets_those_that_have_a_place_in_the_chain) {
+  const std::string text = without_narrow_phase(with_balls("[0.15, 0, 0]"));
+  EXPECT_NE(refusal(text).find("bodies of the scene may touch, but the scene has no [[narrow_phase]]"),
+            std::string::npos)
+      << refusal(text);
+  Catalog catalog;
+  catalog.list().add<NarrowPhase, testing_parts::Spheres>("second", "").default_place = 7;
+  catalog.list().add<NarrowPhase, testing_parts::Spheres>("first", "").default_place = 2;
+  const SceneDocument document = SceneDocument::parse(without_narrow_phase(with_balls("[0.2, 0, 0]")));
+  const Simulation simulation{document, catalog, {}};
+  std::vector<std::string> chain;
+  for (const PartInfo& part : simulation.parts()) {
+    if (part.kind == NarrowPhase::kKind) chain.push_back(part.type);
+  }
+  EXPECT_EQ(chain, (std::vector<std::string>{"first", "second"}));
+}
+
+/// Looks for contacts, twice a step, and does nothing with them.
+class Looker final : public TimeStepper {
+ public:
+  StepSummary step(StepServices& services, const BodyState& bodies, double, double dt) override {
+    services.contacts(bodies.view, bodies.velocity, bodies.angular_velocity, dt);
+    services.contacts(bodies.view, bodies.velocity, bodies.angular_velocity, dt);
+    return {};
+  }
+  [[nodiscard]] ContactView contacts() const override { return {}; }
+};
+
+// Two balls with one centre stay so: a pair a search, counted by step and by phase.
+TEST(Simulation, pairs_computed_by_a_fallback_are_counted) {
+  Catalog catalog;
+  catalog.list().add<TimeStepper, Looker>("looker", "");
+  const std::vector<std::string> overlap{"simulation.allow_overlap=true", "time_stepper.type=looker"};
+  const SceneDocument document = SceneDocument::parse(with_balls("[0, 0, 0]"), "scene.toml", overlap);
+  Simulation simulation{document, catalog, {}};
+  simulation.step();
+  EXPECT_EQ(simulation.step().fallbacks, 2u);
+  ASSERT_FALSE(simulation.report().empty());
+  EXPECT_EQ(simulation.report()[0].rows, (std::vector<std::vector<std::string>>{{"spheres", "4"}}));
+}
+
 TEST(Simulation, unknown_sections_and_names_get_a_suggestion) {
   EXPECT_NE(refusal(scene("[[force_feild]]\ntype = 'push'\n")).find("'force_field'"), std::string::npos);
   EXPECT_NE(refusal(scene("[[body]]\nshape = 'bal'\nmaterial = 'stone'\n")).find("did you mean 'ball'"),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <atomic>
 
 #include <functional>
 #include <string>
@@ -64,12 +65,15 @@ class Spheres final : public NarrowPhase {
       const Vec3 d = view.pose[pair.b].position - view.pose[pair.a].position;
       const double gap = norm(d) - shapes_->primitives()[view.primitive[pair.a]].size.x -
                          shapes_->primitives()[view.primitive[pair.b]].size.x;
+      if (norm(d) == 0.0) ++fallbacks_;  // no line of centres: its normal is made up
       if (gap < pair.reach) out.push_back({view.body[pair.a], view.body[pair.b], 0, 0, 0, {}, normalized(d), gap});
     }
   }
+  [[nodiscard]] std::uint64_t fallbacks() const override { return fallbacks_; }
 
  private:
   const ShapeSet* shapes_ = nullptr;
+  mutable std::atomic<std::uint64_t> fallbacks_ = 0;
 };
 
 /// Constant acceleration along x; `poison` makes it write NaN from some time on, `charge_only` ids ignored.
