@@ -5,23 +5,11 @@
 
 #include "scree/base/require.hpp"
 #include "scree/ccp/block_cone.hpp"
-#include "scree/ccp/cone3.hpp"
+#include "scree/ccp/contact_residual.hpp"
 
 namespace scree {
 
 namespace {
-
-/// Square of the residual of one contact [m2/s2]: impulse `g` [N s], velocity `u` [m/s], 1/s = trace(N_ii) / 3 [1/kg]. The two
-/// common cases, a contact that sticks and one that opens, need no root and no division.
-double squared_residual(const Vec3& g, const Vec3& u, double mu, double s, double inverse_s) {
-  const Vec3 x = g - s * u;
-  const double n = x.x;
-  const double tt = x.y * x.y + x.z * x.z;
-  const double mu2 = mu * mu;
-  if (n >= 0.0 && tt <= mu2 * n * n) return squared_norm(u);                          // x in K: P x = x
-  if (n <= 0.0 && mu2 * tt <= n * n) return squared_norm(g) * inverse_s * inverse_s;  // x in -K*: P x = 0
-  return squared_norm(g - project_cone3(x, mu)) * inverse_s * inverse_s;
-}
 
 /// Square of || g - P(g - s u) || of one block [N2 s2]. Where P leaves a number as it is, the difference is s u itself,
 /// without the rounding of g.
@@ -120,7 +108,7 @@ double ccp_residual(const DelassusOperator& delassus, std::span<const double> ga
           const Vec3 g = load_block(gamma, i);
           Vec3 u = relative_velocity(c, w[c.a], w[c.b]) + load_block(problem.r, i);
           if (compliant) u += hadamard(load_block(problem.compliance, i), g);
-          worst = worse(worst, squared_residual(g, u, c.friction, 3.0 / trace, trace / 3.0));
+          worst = worse(worst, squared_contact_residual(g, u, c.friction, 3.0 / trace, trace / 3.0));
         },
         [&](std::size_t i) {
           const double trace = traces[problem.contacts.size() + i];

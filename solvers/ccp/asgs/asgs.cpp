@@ -16,6 +16,11 @@ namespace {
 constexpr double kRounding = 1e-13;
 /// Conjugate steps that fail before Nesterov's take over.
 constexpr int kFailures = 2;
+/// Single contacts end the solve at this share of the tolerance, in at most so many passes. If they do not, there must be this share
+/// of sweeps more before they try again.
+constexpr double kTarget = 0.9;
+constexpr int kPasses = 2;
+constexpr double kPatience = 0.25;
 
 double sum_of(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
@@ -38,6 +43,7 @@ Asgs::Asgs(const Options& options)
     : Asgs{AsgsOptions{.accelerated = options.boolean("accelerated"),
                        .restart = options.boolean("restart"),
                        .conjugate = options.boolean("conjugate"),
+                       .relaxed = options.boolean("relaxed"),
                        .coloured = options.text("order") == "coloured",
                        .check_interval = static_cast<int>(options.integer("check_interval"))}} {}
 
@@ -47,6 +53,8 @@ std::vector<Parameter> Asgs::parameters() {
           .by_default(true),
       Parameter::boolean("restart", "drop the momentum when it points against the step").by_default(true),
       Parameter::boolean("conjugate", "begin with conjugate steps in place of Nesterov's, until they fail")
+          .by_default(true),
+      Parameter::boolean("relaxed", "end with updates of those contacts alone that still miss the tolerance")
           .by_default(true),
       Parameter::choice("order", {"serial", "coloured"},
                         "order of the contacts in a sweep; coloured lets several threads work, with another result")
@@ -83,6 +91,8 @@ bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::
   objective_ = delassus_.objective(gamma);
   linear_ = objective_ - kinetic_energy() - block_momentum_.sums(blocks_).linear;
   failures_ = 0;
+  next_finish_ = 0;
+  southwell_.bind(delassus_);
   conjugate_ = options_.accelerated && options_.conjugate && problem.blocks.empty() && problem.compliance.empty();
   if (conjugate_) {
     for (std::size_t k = 0; k < history_.size(); ++k) history_[k].y = history_[k].x_old;
@@ -294,6 +304,32 @@ void Asgs::look(SolveSummary& summary) {
   }
 }
 
+bool Asgs::may_finish(const SolveContext& context, const SolveSummary& summary) const {
+  return options_.relaxed && delassus_.problem().blocks.empty() && summary.iterations >= next_finish_ &&
+         summary.residual > context.tolerance && summary.iterations < context.max_iterations;
+}
+
+// Updates those contacts of x that miss the tolerance; the sweeps go on from where they were if that is not enough.
+void Asgs::finish(const SolveContext& context, SolveSummary& summary) {
+  const std::size_t contacts = delassus_.problem().contacts.size();
+  const auto passes = static_cast<std::size_t>(std::min(kPasses, context.max_iterations - summary.iterations));
+  const Southwell::Outcome outcome = southwell_.relax(x_, w_, kTarget * context.tolerance, passes * contacts);
+  if (outcome.visits == 0) return;
+  const int last = summary.iterations + static_cast<int>((outcome.visits + contacts - 1) / contacts);
+  delassus_.body_velocities(x_, w_);
+  const double now = ccp_residual(delassus_, x_, w_, partial_);
+  if (now < summary.residual) {
+    summary.residual = now;
+    std::copy(x_.begin(), x_.end(), x_best_.begin());
+  }
+  while (summary.iterations < last) {
+    ++summary.iterations;
+    if (context.on_iteration)
+      context.on_iteration({summary.iterations, summary.iterations < last ? -1.0 : summary.residual});
+  }
+  next_finish_ = static_cast<int>((1.0 + kPatience) * summary.iterations);
+}
+
 SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
   SCREE_REQUIRE(gamma.size() == problem.rows(), "asgs: gamma needs one number a row");
   if (problem.empty()) return {};
@@ -327,6 +363,7 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
       const double best = looking ? summary.residual : std::min(summary.residual, residual(x_));
       context.on_iteration({summary.iterations, best});
     }
+    if (looking && may_finish(context, summary)) finish(context, summary);
     if (looking && watch.stalled(summary.iterations, summary.residual)) {
       summary.status = SolveStatus::stalled;
       break;

@@ -32,6 +32,7 @@
 #include "scree/ccp/delassus.hpp"
 #include "scree/ccp/sweep/block_sweep.hpp"
 #include "scree/ccp/sweep/contact_sweep.hpp"
+#include "scree/ccp/sweep/southwell.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 
@@ -42,6 +43,7 @@ struct AsgsOptions {
   bool accelerated = true;  ///< false: plain symmetric Gauss-Seidel
   bool restart = true;      ///< drop the momentum when it points against the step
   bool conjugate = true;    ///< begin with conjugate steps
+  bool relaxed = true;      ///< end with updates of those contacts alone that still miss the tolerance
   bool coloured = false;    ///< order by colours, for several threads
   int check_interval = 10;  ///< sweeps between two computations of the residual
 };
@@ -80,6 +82,8 @@ class Asgs final : public CcpSolver {
   double residual(std::span<double> gamma);
   void refresh();
   void look(SolveSummary& summary);
+  bool may_finish(const SolveContext& context, const SolveSummary& summary) const;
+  void finish(const SolveContext& context, SolveSummary& summary);
 
   AsgsOptions options_;
   DelassusOperator delassus_;
@@ -94,6 +98,8 @@ class Asgs final : public CcpSolver {
   std::vector<double> x_, x_best_;  ///< impulses [N s]
   std::vector<Twist> w_;
   ConjugateSteps steps_;
+  Southwell southwell_;
+  int next_finish_ = 0;              ///< iteration from which southwell_ may try again
   bool conjugate_ = false;           ///< steps_ decides where the next pair starts, else beta_
   int failures_ = 0;                 ///< of steps_
   double theta_ = 1.0, beta_ = 0.0;  ///< Nesterov's

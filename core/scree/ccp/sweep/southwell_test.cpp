@@ -1,0 +1,105 @@
+// Southwell: many short columns of equal spheres, each with the closed form of its impulses.
+#include "scree/ccp/sweep/southwell.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scree/ccp/judge.hpp"
+#include "support/ccp_problems.hpp"
+
+namespace scree::test {
+namespace {
+
+constexpr std::size_t kColumns = 500, kHeight = 3;
+constexpr double kMass = 0.2, kSpeed = 1.0;
+
+/// Columns that stand on one floor and would fall at kSpeed: contact k of a column, from below, carries kHeight - k spheres.
+TestingProblem columns() {
+  TestingProblem t;
+  const std::uint32_t floor = t.add_immovable();
+  for (std::size_t column = 0; column < kColumns; ++column) {
+    for (std::size_t k = 0; k < kHeight; ++k) {
+      const std::uint32_t sphere = t.add_body(kMass, {1e-4, 1e-4, 1e-4});
+      t.add_contact(k == 0 ? floor : sphere - 1, sphere, {0, 0, 1}, {0, 0, k == 0 ? 0.0 : 0.05}, {0, 0, -0.05}, 0.5,
+                    {k == 0 ? -kSpeed : 0.0, 0.0, 0.0});
+    }
+  }
+  return t;
+}
+
+double carried(std::size_t k) { return static_cast<double>(kHeight - k) * kMass * kSpeed; }
+
+std::vector<double> solution() {
+  std::vector<double> gamma(3 * kColumns * kHeight, 0.0);
+  for (std::size_t i = 0; i < kColumns * kHeight; ++i) gamma[3 * i] = carried(i % kHeight);
+  return gamma;
+}
+
+/// A problem, and what Southwell works on.
+struct Bench {
+  explicit Bench(std::vector<double> guess) : gamma{std::move(guess)} {
+    delassus.bind(problem, nullptr);
+    w.resize(problem.bodies());
+    delassus.body_velocities(gamma, w);
+    southwell.bind(delassus);
+  }
+  TestingProblem t = columns();
+  CcpProblem problem = t.view();
+  DelassusOperator delassus;
+  Southwell southwell;
+  std::vector<double> gamma;
+  std::vector<Twist> w;
+};
+
+}  // namespace
+
+// One column without its impulses: it is solved, and nothing else is touched or visited.
+TEST(southwell, solves_where_the_residual_is_and_leaves_the_rest) {
+  constexpr std::size_t kEmpty = 77;
+  std::vector<double> guess = solution();
+  for (std::size_t k = 0; k < kHeight; ++k) guess[3 * (kEmpty * kHeight + k)] = 0.0;
+  Bench b{guess};
+  const double before = b.delassus.objective(b.gamma);
+  const Southwell::Outcome outcome = b.southwell.relax(b.gamma, b.w, 1e-9, 1000000);
+  EXPECT_TRUE(outcome.reached);
+  EXPECT_LE(ccp_residual(b.problem, b.gamma), 1e-9 * (1.0 + 1e-6));  // w is summed up update by update
+  EXPECT_LT(b.delassus.objective(b.gamma), before);
+  for (std::size_t i = 0; i < b.problem.contacts.size(); ++i) {
+    // A residual of 1e-9 m/s leaves an impulse of kHeight^2 masses times that.
+    const double tolerance = i / kHeight == kEmpty ? 1e-9 * kMass * kHeight * kHeight : 0.0;
+    EXPECT_NEAR(b.gamma[3 * i], carried(i % kHeight), tolerance);
+  }
+  // The error of the column falls by cos^2(pi / 7) = 0.81 a pass, so that 100 passes reach 1e-9; neighbours double the visits.
+  EXPECT_LE(outcome.visits, 200 * kHeight);
+}
+
+TEST(southwell, velocities_stay_those_of_the_impulses) {
+  std::vector<double> guess = solution();
+  guess[3] = guess[4] = 0.0;
+  Bench b{guess};
+  b.southwell.relax(b.gamma, b.w, 1e-6, 1000000);
+  std::vector<Twist> w(b.w.size());
+  b.delassus.body_velocities(b.gamma, w);
+  for (std::size_t k = 0; k < w.size(); ++k) {
+    EXPECT_NEAR(norm(w[k].linear - b.w[k].linear) + norm(w[k].angular - b.w[k].angular), 0.0, 1e-13);
+  }
+}
+
+// A twentieth of the columns is more than few: nothing is done.
+TEST(southwell, leaves_a_problem_alone_where_many_contacts_miss) {
+  std::vector<double> guess = solution();
+  for (std::size_t column = 0; column < kColumns; column += 20) guess[3 * column * kHeight] = 0.0;
+  Bench b{guess};
+  EXPECT_EQ(b.southwell.relax(b.gamma, b.w, 1e-9, 1000000).visits, 0U);
+  EXPECT_EQ(b.gamma, guess);
+}
+
+TEST(southwell, keeps_its_budget) {
+  std::vector<double> guess = solution();
+  for (std::size_t k = 0; k < kHeight; ++k) guess[3 * k] = 0.0;
+  Bench b{guess};
+  const Southwell::Outcome outcome = b.southwell.relax(b.gamma, b.w, 1e-12, 7);
+  EXPECT_FALSE(outcome.reached);
+  EXPECT_EQ(outcome.visits, 7U);
+}
+
+}  // namespace scree::test
