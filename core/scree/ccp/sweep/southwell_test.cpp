@@ -84,10 +84,10 @@ TEST(southwell, velocities_stay_those_of_the_impulses) {
   }
 }
 
-// A twentieth of the columns is more than few: nothing is done.
+// A quarter of the columns is more than few: nothing is done.
 TEST(southwell, leaves_a_problem_alone_where_many_contacts_miss) {
   std::vector<double> guess = solution();
-  for (std::size_t column = 0; column < kColumns; column += 20) guess[3 * column * kHeight] = 0.0;
+  for (std::size_t column = 0; column < kColumns; column += 4) guess[3 * column * kHeight] = 0.0;
   Bench b{guess};
   EXPECT_EQ(b.southwell.relax(b.gamma, b.w, 1e-9, 1000000).visits, 0U);
   EXPECT_EQ(b.gamma, guess);
