@@ -5,7 +5,8 @@ namespace scree {
 std::string to_prefix(const SourceLocation& where) {
   if (where.file.empty()) return {};
   std::string text = where.file;
-  if (where.line > 0) text += ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+  if (where.line > 0) text += ":" + std::to_string(where.line);
+  if (where.line > 0 && where.column > 0) text += ":" + std::to_string(where.column);
   return text + ": ";
 }
 

@@ -8,6 +8,7 @@
 
 #include "scree/geometry/convex_hull.hpp"
 #include "scree/geometry/triangle_mesh_data.hpp"
+#include "scree/geometry/triangle_tree.hpp"
 
 namespace scree {
 
@@ -52,17 +53,10 @@ class MeshDistance {
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
 
  private:
-  /// A node covers the triangles [begin, end) of order_; children follow: left at index + 1, right at `right`.
-  struct Node {
-    Aabb box;
-    std::uint32_t begin = 0, end = 0, right = 0;
-  };
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end);
   void compute_normals();
 
   TriangleMesh mesh_;
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
+  TriangleTree tree_;
   std::vector<Vec3> vertex_normals_;
   std::vector<std::array<Vec3, 4>> triangle_normals_;  // edges 0, 1, 2 and the face
 };

@@ -3,44 +3,22 @@
 #include <algorithm>
 #include <numbers>
 #include <unordered_map>
-#include <utility>
 
 #include "scree/base/require.hpp"
+#include "scree/geometry/mesh_edges.hpp"
 
 namespace scree {
 namespace {
 
-/// One side of a triangle: its ends in ascending order, and whether the triangle passes it upwards.
-struct Side {
-  std::uint32_t low, high;
-  bool upwards;
-};
-
-std::vector<Side> sides_of(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), a < b});
-    }
-  }
-  std::ranges::sort(sides, {}, [](const Side& s) { return std::pair{s.low, s.high}; });
-  return sides;
-}
-
 /// Counts faulty edges; returns the number of edges.
 std::size_t count_edges(const TriangleMesh& mesh, MeshReport& report) {
-  const std::vector<Side> sides = sides_of(mesh);
   std::size_t edges = 0;
-  for (std::size_t begin = 0; begin < sides.size(); ++edges) {
-    std::size_t end = begin;
-    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
-    if (end - begin == 1) ++report.open_edges;
-    if (end - begin > 2) ++report.crowded_edges;
-    if (end - begin == 2 && sides[begin].upwards == sides[begin + 1].upwards) ++report.misoriented_edges;
-    begin = end;
-  }
+  for_each_edge(sorted_sides(mesh), [&](std::span<const MeshSide> edge) {
+    ++edges;
+    if (edge.size() == 1) ++report.open_edges;
+    if (edge.size() > 2) ++report.crowded_edges;
+    if (edge.size() == 2 && edge[0].upwards == edge[1].upwards) ++report.misoriented_edges;
+  });
   return edges;
 }
 
@@ -62,23 +40,27 @@ std::size_t count_used_vertices(const TriangleMesh& mesh) {
   return static_cast<std::size_t>(std::ranges::count(used, true));
 }
 
+/// Tells triangles without an area from others.
+class AreaCheck {
+ public:
+  explicit AreaCheck(const TriangleMesh& mesh) : mesh_{mesh} {
+    const Aabb box = bounds_of(mesh.vertices);
+    middle_ = 0.5 * (box.lower + box.upper);
+    least_ = 1e-14 * squared_norm(box.upper - box.lower);
+  }
+  [[nodiscard]] const Vec3& middle() const { return middle_; }
+  [[nodiscard]] bool is_degenerate(const Triangle& t) const {
+    const Vec3 &a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
+    return !(0.5 * norm(cross(b - a, c - a)) > least_);
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  Vec3 middle_;
+  double least_;  // area [m^2]
+};
+
 }  // namespace
-
-bool MeshReport::is_solid() const { return problem().empty(); }
-
-std::string MeshReport::problem() const {
-  const auto count = [](std::size_t n, const char* what) { return std::to_string(n) + " " + what; };
-  if (bad_vertices > 0) return count(bad_vertices, "vertices are not finite numbers; export the mesh again");
-  if (bad_indices > 0) return count(bad_indices, "triangles name a vertex that does not exist; export the mesh again");
-  if (degenerate_triangles > 0) return count(degenerate_triangles, "triangles have no area; remove them");
-  if (open_edges > 0) return count(open_edges, "edges have one triangle only: the surface has holes; close them");
-  if (crowded_edges > 0) return count(crowded_edges, "edges join more than two triangles; make the surface manifold");
-  if (misoriented_edges > 0)
-    return count(misoriented_edges, "edges join triangles of opposite sense; unify the normals");
-  if (inside_out) return "the normals point inwards; flip them";
-  if (!(volume > 0.0)) return "it encloses no volume; a solid needs at least four triangles";
-  return {};
-}
 
 MeshReport check_mesh(const TriangleMesh& mesh) {
   MeshReport report;
@@ -89,13 +71,11 @@ MeshReport check_mesh(const TriangleMesh& mesh) {
   }));
   if (report.bad_vertices + report.bad_indices > 0 || mesh.triangles.empty()) return report;
 
-  const Aabb box = bounds_of(mesh.vertices);
-  const Vec3 middle = 0.5 * (box.lower + box.upper);
-  const double least_area = 1e-14 * squared_norm(box.upper - box.lower);
+  const AreaCheck area{mesh};
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]] - middle, b = mesh.vertices[t[1]] - middle, c = mesh.vertices[t[2]] - middle;
-    if (0.5 * norm(cross(b - a, c - a)) <= least_area) ++report.degenerate_triangles;
-    report.volume += dot(a, cross(b, c)) / 6.0;
+    const Vec3 a = mesh.vertices[t[0]] - area.middle(), b = mesh.vertices[t[1]] - area.middle();
+    if (area.is_degenerate(t)) ++report.degenerate_triangles;
+    report.volume += dot(a, cross(b, mesh.vertices[t[2]] - area.middle())) / 6.0;
   }
   const std::size_t edges = count_edges(mesh, report);
   report.euler =
@@ -106,6 +86,16 @@ MeshReport check_mesh(const TriangleMesh& mesh) {
 
 TriangleMesh turned_inside_out(TriangleMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TriangleMesh without_degenerate(TriangleMesh mesh) {
+  const AreaCheck area{mesh};
+  std::vector<Triangle> kept;
+  for (const Triangle& t : mesh.triangles) {
+    if (!area.is_degenerate(t)) kept.push_back(t);
+  }
+  mesh.triangles = std::move(kept);
   return mesh;
 }
 

@@ -33,13 +33,22 @@ struct MeshReport {
   int euler = 0;            ///< vertices in use - edges + triangles; 2 for a surface like a sphere's
   double volume = 0.0;      ///< [m^3], signed; means something when the mesh is closed and oriented
 
+  // From here on filled by examine_mesh() only (mesh_examination.hpp).
+  std::size_t crossings = 0;         ///< pairs of triangles that pass through each other; counted up to 1000
+  Vec3 crossing_at;                  ///< one place where they do [m]
+  std::size_t shells = 0;            ///< parts that do not hang together by edges
+  std::size_t misplaced_shells = 0;  ///< shells that lie in another with the same sense, or face inwards alone
+  bool one_sided = false;            ///< no choice of normals agrees at all edges, as on a Moebius strip
+
   /// Every edge has exactly two triangles.
   [[nodiscard]] bool is_closed() const { return open_edges == 0 && crowded_edges == 0; }
   /// Neighbours pass their common edge in opposite senses.
   [[nodiscard]] bool is_oriented() const { return misoriented_edges == 0; }
   /// Closed, oriented, outward and free of degenerate triangles: volume and inside are well defined.
   [[nodiscard]] bool is_solid() const;
-  /// The first thing that keeps the mesh from being a solid, with the remedy, as a sentence; empty when it is one.
+  /// What keeps the mesh from being a solid, worst first, each with its remedy, as sentences; empty when it is one.
+  [[nodiscard]] std::vector<std::string> problems() const;
+  /// The first of problems(); empty for none.
   [[nodiscard]] std::string problem() const;
 };
 
@@ -48,6 +57,9 @@ struct MeshReport {
 
 /// The mesh with every triangle turned over, so that an inside-out solid becomes a solid.
 [[nodiscard]] TriangleMesh turned_inside_out(TriangleMesh mesh);
+
+/// The mesh without the triangles that check_mesh() counts as degenerate; vertices stay.
+[[nodiscard]] TriangleMesh without_degenerate(TriangleMesh mesh);
 
 /// One vertex for all that lie within `distance` [m] of each other along every axis; triangles that collapse are
 /// dropped. File formats such as STL store each triangle's corners separately.

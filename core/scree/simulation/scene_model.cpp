@@ -110,7 +110,8 @@ std::uint32_t shape_record(SceneModel& model, const NamedOptions& shape, Motion 
   const std::string name = shape.name + (principal ? "" : " (as written)") + (collides ? "" : " (ghost)");
   const std::int64_t known = model.shapes.find(name);
   if (known >= 0) return static_cast<std::uint32_t>(known);
-  ShapeData data = build_shape(shape.name, shape.options, principal ? ShapeFrame::principal : ShapeFrame::as_written);
+  ShapeData data =
+      build_shape(shape.name, shape.options, principal ? ShapeFrame::principal : ShapeFrame::as_written, model.remarks);
   data.name = name;
   for (PrimitiveData& part : data.primitives) part.primitive.collides = collides;
   return model.shapes.add(data);

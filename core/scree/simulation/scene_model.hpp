@@ -8,6 +8,7 @@
 #include "scree/model/body_store.hpp"
 #include "scree/model/material.hpp"
 #include "scree/model/shape_set.hpp"
+#include "scree/simulation/shape_builder.hpp"
 
 namespace scree {
 
@@ -41,6 +42,7 @@ struct SceneModel {
   std::vector<std::string> collision_groups{"default"};  ///< by CollisionGroup
   std::vector<NamedOptions> collision_group_options;
   std::vector<Options> excluded_pair_options;
+  ShapeRemarks remarks;
 };
 
 /// Reads and checks the sections that describe matter. @throws Error (usage, io) at the place in the scene.

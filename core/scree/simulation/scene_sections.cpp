@@ -42,18 +42,12 @@ std::vector<Parameter> operator+(std::vector<Parameter> a, const std::vector<Par
   return a;
 }
 
-/// Primitives, as parts of compounds or shapes of their own.
-std::vector<Variant> primitive_variants(const std::vector<Parameter>& placed) {
-  const auto length = [](const char* name, const char* help) { return Parameter::number(name, "m", help).above(0.0); };
-  const auto file = [](const char* help) { return Parameter::path("file", help).optional(); };
+Parameter length(const char* name, const char* help) { return Parameter::number(name, "m", help).above(0.0); }
+
+/// Primitives that a few lengths describe.
+std::vector<Variant> simple_variants(const std::vector<Parameter>& placed) {
   return {
       {"sphere", "A ball.", std::vector<Parameter>{length("radius", "radius")} + placed},
-      {"sphere_cluster", "A rigid union of spheres.",
-       std::vector<Parameter>{Parameter::tables(
-           "spheres",
-           {Parameter::vector("centre", "m", "centre of the sphere"), length("radius", "radius of the sphere")},
-           "the spheres")} +
-           placed},
       {"box", "A cuboid.",
        std::vector<Parameter>{Parameter::vector("size", "m", "full edge lengths along x, y and z").above(0.0)} +
            placed},
@@ -72,21 +66,68 @@ std::vector<Variant> primitive_variants(const std::vector<Parameter>& placed) {
            Parameter::vector("normal", "1", "outward normal, before the rotation").by_default(Vec3{0, 0, 1})} +
            placed},
       {"ellipsoid", "An ellipsoid with its axes along x, y and z.",
-       std::vector<Parameter>{Parameter::vector("semi_axes", "m", "half lengths along x, y, z").above(0.0)} + placed},
+       std::vector<Parameter>{Parameter::vector("semi_axes", "m", "half lengths along x, y, z").above(0.0)} + placed}};
+}
+
+/// A rigid union of spheres, on its own or in the place of another solid.
+Variant cluster_variant(const std::vector<Parameter>& placed) {
+  const Parameter solid =
+      Parameter::table(
+          "solid",
+          {Parameter::number("volume", "m3", "volume").above(0.0),
+           Parameter::vector("centre", "m", "centre of mass").by_default(Vec3{}),
+           Parameter::numbers("inertia", "m5", "xx, yy, zz, xy, xz, yz about the centre, per unit of density")
+               .with_count(6)},
+          "the solid that the spheres stand for: its mass and inertia count, not theirs")
+          .optional();
+  return {"sphere_cluster", "A rigid union of spheres.",
+          std::vector<Parameter>{Parameter::tables("spheres",
+                                                   {Parameter::vector("centre", "m", "centre of the sphere"),
+                                                    length("radius", "radius of the sphere")},
+                                                   "the spheres"),
+                                 solid} +
+              placed};
+}
+
+/// Primitives made of points and triangles.
+std::vector<Variant> surface_variants(const std::vector<Parameter>& placed) {
+  const auto file = [](const char* help) { return Parameter::path("file", help).optional(); };
+  const Parameter scale =
+      Parameter::number("scale", "1", "factor on the numbers of the file").above(0.0).by_default(1.0);
+  const Parameter spheres =
+      Parameter::integer("spheres", "collision sees so many spheres in its place; mass and inertia stay")
+          .at_least(1)
+          .at_most(1000)
+          .optional();
+  return {
       {"convex_hull", "The convex hull of points.",
        std::vector<Parameter>{
            Parameter::numbers("points", "m", "x, y, z of each point, one after the other").optional(),
-           file("STL, OBJ or PLY file with the points"),
-           Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
+           file("STL, OBJ or PLY file with the points"), scale, spheres} +
            placed},
       {"triangle_mesh", "A surface of triangles.",
        std::vector<Parameter>{
            Parameter::numbers("vertices", "m", "x, y, z of each vertex, one after the other").optional(),
            Parameter::numbers("triangles", "1", "three indices of vertices a triangle, from 0, counter-clockwise")
                .optional(),
-           file("STL, OBJ or PLY file"),
-           Parameter::number("scale", "1", "factor on the coordinates of the file").above(0.0).by_default(1.0)} +
+           file("STL, OBJ or PLY file"), scale, spheres} +
+           placed},
+      {"heightfield", "Heights over a grid; the first lies at the origin, rows follow each other along y.",
+       std::vector<Parameter>{
+           Parameter::numbers("heights", "m", "row by row, each along x").optional(),
+           Parameter::integer("columns", "heights in a row of `heights`").at_least(2).optional(),
+           file("text file of heights, a row a line"), scale, length("spacing", "distance of neighbours in the grid"),
+           length("spacing_y", "distance along y; `spacing` when left out").optional(),
+           Parameter::number("base", "m", "height of a flat underside, which makes it a closed solid").optional()} +
            placed}};
+}
+
+/// Primitives, as parts of compounds or shapes of their own.
+std::vector<Variant> primitive_variants(const std::vector<Parameter>& placed) {
+  std::vector<Variant> all = simple_variants(placed);
+  all.insert(all.begin() + 1, cluster_variant(placed));
+  for (Variant& surface : surface_variants(placed)) all.push_back(std::move(surface));
+  return all;
 }
 
 std::vector<SceneSection> model_sections() {

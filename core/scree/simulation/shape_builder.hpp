@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scree/config/options.hpp"
 #include "scree/model/shape_set.hpp"
@@ -14,10 +15,18 @@ enum class ShapeFrame {
   as_written  ///< the frame of the scene's text: for fixed and kinematic bodies
 };
 
+/// What a user should know of the shapes of a scene, as sentences.
+struct ShapeRemarks {
+  std::vector<std::string> notes;     ///< for the log
+  std::vector<std::string> warnings;  ///< with their place: what is usable, but hardly meant
+};
+
 /// Builds a shape from a validated `[shape.NAME]` table (scene_sections: shape_variants()).
 /// @throws Error (usage, io) when the geometry cannot be used: a hull of coplanar points, a missing file, or, in the
-/// principal frame, a shape without a volume (plane, hollow cylinder, open mesh).
-[[nodiscard]] ShapeData build_shape(const std::string& name, const Options& options, ShapeFrame frame);
+/// principal frame, a shape without a volume: a plane, a hollow cylinder, a mesh that does not bound a solid. As written,
+/// such a mesh is used as it is, and `remarks` say what is wrong with it.
+[[nodiscard]] ShapeData build_shape(const std::string& name, const Options& options, ShapeFrame frame,
+                                    ShapeRemarks& remarks);
 
 /// The pose given by position, rotation_axis and rotation_angle. @throws Error (usage) for a zero axis.
 [[nodiscard]] Pose pose_of(const Options& options);

@@ -30,6 +30,7 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   end_time = wanted.end_time.value_or(model.simulation.number("end_time"));
   max_speed = model.simulation.number("max_speed");
   count_steps();
+  tell_of_shapes();
   feed.fed.resize(model.materials.size());
   feed.removed.resize(model.materials.size());
 
@@ -48,6 +49,15 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   if (!model.simulation.boolean("allow_overlap")) host->watch_births(births, model.bodies);
   check_stepper_needs(parts, model, *pipeline, bodies.view());
   check_overlap();
+}
+
+void Simulation::State::tell_of_shapes() {
+  log.insert(log.end(), model.remarks.notes.begin(), model.remarks.notes.end());
+  for (const std::string& sentence : model.remarks.warnings) {
+    if (std::ranges::find(warnings, sentence) != warnings.end()) continue;  // of a fixed and a moving body of one shape
+    warnings.push_back(sentence);
+    log.push_back("warning: " + sentence);
+  }
 }
 
 void Simulation::State::count_steps() {

@@ -66,6 +66,7 @@ struct Simulation::State {
   [[nodiscard]] Observation observation(std::uint64_t step) const;
 
   void count_steps();
+  void tell_of_shapes();
   void setup_parts();
   void add_scene_bodies();
   void add(NewBody body);
