@@ -16,11 +16,6 @@ namespace {
 constexpr double kRounding = 1e-13;
 /// Conjugate steps that fail before Nesterov's take over.
 constexpr int kFailures = 2;
-/// Single contacts end the solve at this share of the tolerance, in at most so many passes. If they do not, there must be this share
-/// of sweeps more before they try again.
-constexpr double kTarget = 0.9;
-constexpr int kPasses = 2;
-constexpr double kPatience = 0.25;
 
 double sum_of(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
@@ -261,75 +256,6 @@ double Asgs::kinetic_energy() {
   return total;
 }
 
-// The velocities were summed up update by update: the residual is that of the impulses alone.
-double Asgs::residual(std::span<double> gamma) {
-  contacts_.impulses(gamma);
-  blocks_.impulses(gamma);
-  delassus_.body_velocities(gamma, w_);
-  return ccp_residual(delassus_, gamma, w_, partial_);
-}
-
-// Gives the bodies and rows of x the velocities w_ that its impulses have, without what rounding added, and those of x_old
-// the same correction, so that the momentum stays.
-void Asgs::refresh() {
-  const std::span<sweep::Body> bodies = contacts_.bodies();
-  if (conjugate_) {
-    std::copy(bodies.begin(), bodies.end(), old_.begin());  // free for this
-    contacts_.set_velocities(w_);
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-      steps_.correct(k, bodies[k].linear - old_[k].linear, bodies[k].angular - old_[k].angular);
-    }
-  } else {
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-      old_[k].linear -= bodies[k].linear;
-      old_[k].angular -= bodies[k].angular;
-    }
-    contacts_.set_velocities(w_);
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-      old_[k].linear += bodies[k].linear;
-      old_[k].angular += bodies[k].angular;
-    }
-  }
-  block_momentum_.refresh(blocks_, x_);
-  objective_ = objective();
-}
-
-// Keeps x if it is the best so far.
-void Asgs::look(SolveSummary& summary) {
-  const double now = residual(x_);
-  refresh();
-  if (now < summary.residual) {
-    summary.residual = now;
-    std::copy(x_.begin(), x_.end(), x_best_.begin());
-  }
-}
-
-bool Asgs::may_finish(const SolveContext& context, const SolveSummary& summary) const {
-  return options_.relaxed && delassus_.problem().blocks.empty() && summary.iterations >= next_finish_ &&
-         summary.residual > context.tolerance && summary.iterations < context.max_iterations;
-}
-
-// Updates those contacts of x that miss the tolerance; the sweeps go on from where they were if that is not enough.
-void Asgs::finish(const SolveContext& context, SolveSummary& summary) {
-  const std::size_t contacts = delassus_.problem().contacts.size();
-  const auto passes = static_cast<std::size_t>(std::min(kPasses, context.max_iterations - summary.iterations));
-  const Southwell::Outcome outcome = southwell_.relax(x_, w_, kTarget * context.tolerance, passes * contacts);
-  if (outcome.visits == 0) return;
-  const int last = summary.iterations + static_cast<int>((outcome.visits + contacts - 1) / contacts);
-  delassus_.body_velocities(x_, w_);
-  const double now = ccp_residual(delassus_, x_, w_, partial_);
-  if (now < summary.residual) {
-    summary.residual = now;
-    std::copy(x_.begin(), x_.end(), x_best_.begin());
-  }
-  while (summary.iterations < last) {
-    ++summary.iterations;
-    if (context.on_iteration)
-      context.on_iteration({summary.iterations, summary.iterations < last ? -1.0 : summary.residual});
-  }
-  next_finish_ = static_cast<int>((1.0 + kPatience) * summary.iterations);
-}
-
 SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
   SCREE_REQUIRE(gamma.size() == problem.rows(), "asgs: gamma needs one number a row");
   if (problem.empty()) return {};
@@ -354,8 +280,7 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
     const bool looking = summary.iterations >= next_look || summary.iterations == context.max_iterations;
     if (looking) {
       look(summary);
-      next_look = summary.iterations < options_.check_interval ? 2 * summary.iterations
-                                                               : summary.iterations + options_.check_interval;
+      next_look = summary.iterations + look_distance(summary, context.tolerance);
     }
     if (context.on_iteration) {
       if (both) context.on_iteration({first, -1.0});

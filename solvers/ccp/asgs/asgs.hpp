@@ -82,6 +82,7 @@ class Asgs final : public CcpSolver {
   double residual(std::span<double> gamma);
   void refresh();
   void look(SolveSummary& summary);
+  int look_distance(const SolveSummary& summary, double tolerance) const;
   bool may_finish(const SolveContext& context, const SolveSummary& summary) const;
   void finish(const SolveContext& context, SolveSummary& summary);
 
