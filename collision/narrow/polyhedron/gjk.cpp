@@ -12,6 +12,8 @@ constexpr double kTouching = 1e-8;
 /// The walk ends when the distance is known to this part of itself; it is exact after finitely many corners anyway.
 constexpr double kPrecision = 1e-13;
 constexpr int kMostSteps = 100;
+/// Directions that are tried before the walk; they settle nine pairs of ten that do not meet.
+constexpr int kGuesses = 3;
 
 void write_ends(const Simplex& simplex, Distance& out) {
   Vec3 on_a, on_b;
@@ -27,12 +29,28 @@ void write_ends(const Simplex& simplex, Distance& out) {
   out.on_b = on_b;
 }
 
+/// True when one of a few guesses at a direction proves that the distance exceeds `limit`: that between the middles, and
+/// then each one mirrored at the corner of B - A which spoilt it (Chung and Wang, "Quick collision detection of polytopes in
+/// virtual environments", 1996). Leaves the last direction in `v`.
+bool guess(const PlacedPair& pair, double limit, Vec3& v) {
+  for (int k = 0; k < kGuesses; ++k) {
+    const Vec3 w = pair.corner_b(pair.lowest_of_b(v)) - pair.a.corner(farthest(pair.a, v));
+    const double vw = dot(v, w);
+    if (vw > 0.0) return vw * vw > limit * limit * squared_norm(v);
+    const double w2 = squared_norm(w);
+    if (w2 == 0.0) return false;
+    v -= (2.0 * vw / w2) * w;
+  }
+  return false;
+}
+
 }  // namespace
 
 Distance distance(const PlacedPair& pair, double limit) {
   Distance out;
   Simplex simplex;
   Vec3 v = pair.centre_b() - pair.centre_a();
+  if (guess(pair, limit, v)) return out;
   const double touching = kTouching * pair.size;
   double least = std::numeric_limits<double>::infinity();  // squared length of v, once v is a point of B - A
   for (int step = 0; step < kMostSteps; ++step) {

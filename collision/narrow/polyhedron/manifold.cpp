@@ -43,6 +43,11 @@ std::uint32_t facing(const Polytope& solid, const Vec3& n, std::uint32_t corner)
   return best;
 }
 
+void sort_by_feature(std::vector<ManifoldPoint>& points) {
+  std::sort(points.begin(), points.end(),
+            [](const ManifoldPoint& l, const ManifoldPoint& r) { return l.feature < r.feature; });
+}
+
 /// A reference face that explains a meeting.
 struct Reference {
   std::uint32_t face = kNoFace;
@@ -115,10 +120,8 @@ class Maker {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
-void face_points(const PlacedPair& pair, const Reference& reference, bool of_a, double reach, Manifold& out) {
-  out.normal = of_a ? reference.out : -reference.out;
-  out.of_face = true;
-  Maker maker{pair, reach, out};
+/// What of the incident face lies over the reference face.
+void face_points(const PlacedPair& pair, const Reference& reference, bool of_a, Manifold& out, Maker& maker) {
   const Polytope& other = of_a ? pair.b : pair.a;
   const Polytope& own = of_a ? pair.a : pair.b;
   const Vec3 inwards = of_a ? -(pair.turn_back * reference.out) : -reference.out;
@@ -131,7 +134,10 @@ void face_points(const PlacedPair& pair, const Reference& reference, bool of_a, 
       maker.add_over(reference, of_a, c.at, dot(reference.out, c.at - on_plane), feature_of(pair, c));
     }
   }
-  // A deep corner may lie beside the face.
+}
+
+/// A corner of the other solid that is deeper than all points of the face, beside it.
+void add_deepest(const PlacedPair& pair, const Reference& reference, bool of_a, Maker& maker) {
   if (maker.has(reference.separation)) return;
   const Vec3 deepest = of_a ? pair.corner_b(reference.deepest) : pair.a.corner(reference.deepest);
   maker.add_over(reference, of_a, deepest, reference.separation, feature_of_corner(of_a ? 1 : 0, reference.deepest));
@@ -174,20 +180,35 @@ void line_points(const PlacedPair& pair, const Meeting& meeting, Maker& maker) {
 
 void make_manifold(const PlacedPair& pair, const Meeting& meeting, double reach, Manifold& out) {
   out.points.clear();
+  Maker maker{pair, reach, out};
   const Reference a = reference_of_a(pair, meeting), b = reference_of_b(pair, meeting);
   const bool use_a = a.face != kNoFace && (b.face == kNoFace || a.separation >= b.separation - kSameGap * pair.size);
-  if (use_a || b.face != kNoFace) {
-    face_points(pair, use_a ? a : b, use_a, reach, out);
+  out.of_face = use_a || b.face != kNoFace;
+  if (out.of_face) {
+    const Reference& reference = use_a ? a : b;
+    out.normal = use_a ? reference.out : -reference.out;
+    face_points(pair, reference, use_a, out, maker);
+    add_deepest(pair, reference, use_a, maker);
   } else {
     out.normal = meeting.normal;
-    out.of_face = false;
-    Maker maker{pair, reach, out};
     line_points(pair, meeting, maker);
     if (!maker.has(meeting.gap)) maker.add(meeting.on_a, meeting.on_b, meeting.gap, kNoFeature);
   }
   if (out.points.size() > kDirections + 1) keep_support(out.normal, out.points);
-  std::sort(out.points.begin(), out.points.end(),
-            [](const ManifoldPoint& l, const ManifoldPoint& r) { return l.feature < r.feature; });
+  sort_by_feature(out.points);
+}
+
+void make_face_manifold(const PlacedPair& pair, std::uint32_t face, double reach, Manifold& out) {
+  out.points.clear();
+  out.of_face = true;
+  out.normal = pair.a.faces[face].normal;
+  Maker maker{pair, reach, out};
+  Reference reference;
+  reference.face = face;
+  reference.out = out.normal;
+  reference.deepest = pair.lowest_of_b(out.normal);
+  face_points(pair, reference, true, out, maker);
+  sort_by_feature(out.points);
 }
 
 void keep_support(const Vec3& normal, std::vector<ManifoldPoint>& points) {

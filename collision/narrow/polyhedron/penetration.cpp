@@ -63,63 +63,73 @@ class Search {
     }
   }
 
-  void collect(const Polytope& solid, const std::vector<double>& depth, std::vector<std::uint32_t>& edges) const {
+  /// The edges one of whose faces is near enough. `turned`: seen from a, b's normals point towards a.
+  template <class Corner, class Turn>
+  void collect(const Polytope& solid, const std::vector<double>& depth, std::vector<NearEdge>& edges,
+               const Corner& corner, const Turn& turned) const {
     edges.clear();
-    for (std::uint32_t e = 0; e < solid.edges.size(); ++e) {
-      const Edge& edge = solid.edges[e];
-      const bool segment = edge.left == kNoFace;
-      if (!segment && edge.right == kNoFace) continue;
-      if (segment || can_win(std::min(depth[edge.left], depth[edge.right]))) edges.push_back(e);
+    const auto add = [&](const Edge& edge) {
+      const Vec3 from = corner(edge.from);
+      edges.push_back({from, corner(edge.to) - from, {}, {}, 0.0});
+    };
+    for (const Edge& edge : solid.edges.first(solid.faces.empty() ? 1 : 0)) add(edge);
+    for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
+      if (!can_win(depth[f])) continue;
+      for (const Side& side : solid.sides_of(f)) {
+        const Edge& edge = solid.edges[side.edge];
+        if (edge.right == kNoFace) continue;
+        // An edge between two near faces belongs to its left one.
+        const std::uint32_t other = edge.left == f ? edge.right : edge.left;
+        if (edge.left != f && can_win(depth[other])) continue;
+        add(edge);
+        edges.back().left = turned(solid.faces[f].normal);
+        edges.back().right = turned(solid.faces[other].normal);
+        edges.back().depth = std::min(depth[f], depth[other]);
+      }
     }
   }
   void try_edges() {
-    collect(pair_.a, scratch_.depth_a, scratch_.edges_a);
-    collect(pair_.b, scratch_.depth_b, scratch_.edges_b);
+    collect(
+        pair_.a, scratch_.depth_a, scratch_.edges_a, [&](std::uint32_t i) { return pair_.a.corner(i); },
+        [](const Vec3& n) { return n; });
+    collect(
+        pair_.b, scratch_.depth_b, scratch_.edges_b, [&](std::uint32_t i) { return pair_.corner_b(i); },
+        [&](const Vec3& n) { return -(pair_.turn * n); });
     best_.separation += kFaceBias * pair_.size;
-    const double without_edges = best_.separation;
-    for (const std::uint32_t j : scratch_.edges_b) {
-      const Edge& eb = pair_.b.edges[j];
-      const Vec3 q = pair_.corner_b(eb.from), v = pair_.corner_b(eb.to) - q;
-      Vec3 c, d;  // what b's faces look like from a
-      if (eb.left != kNoFace) {
-        c = -(pair_.turn * pair_.b.faces[eb.left].normal);
-        d = -(pair_.turn * pair_.b.faces[eb.right].normal);
-      }
-      for (const std::uint32_t i : scratch_.edges_a) {
-        const Edge& ea = pair_.a.edges[i];
-        const Vec3 p = pair_.a.corner(ea.from), u = pair_.a.corner(ea.to) - p;
-        if (arcs_cross(ea, eb, u, v, c, d)) try_edge_pair(p, u, q, v);
+    const double of_faces = best_.separation;
+    for (const NearEdge& b : scratch_.edges_b) {
+      for (const NearEdge& a : scratch_.edges_a) {
+        if (can_win(a.depth + b.depth) && arcs_cross(a, b)) try_edge_pair(a, b);
       }
     }
-    if (best_.separation == without_edges) best_.separation -= kFaceBias * pair_.size;
+    if (best_.separation == of_faces) best_.separation -= kFaceBias * pair_.size;
   }
   /// Whether some direction is in the normal cones of both edges, so that they carry a face of B - A. A segment's cone is a
   /// whole circle.
-  [[nodiscard]] bool arcs_cross(const Edge& ea, const Edge& eb, const Vec3& u, const Vec3& v, const Vec3& c,
-                                const Vec3& d) const {
-    const double cu = dot(c, u), du = dot(d, u);
-    if (eb.left != kNoFace && cu * du >= 0.0) return false;
-    if (ea.left == kNoFace) return true;
-    const Vec3 &a = pair_.a.faces[ea.left].normal, &b = pair_.a.faces[ea.right].normal;
-    const double av = dot(a, v), bv = dot(b, v);
-    if (av * bv >= 0.0) return false;
-    if (eb.left == kNoFace) return true;
+  [[nodiscard]] bool arcs_cross(const NearEdge& a, const NearEdge& b) const {
+    const double bl = dot(b.left, a.along), br = dot(b.right, a.along);
+    if (!pair_.b.faces.empty() && bl * br >= 0.0) return false;
+    if (pair_.a.faces.empty()) return true;
+    const double al = dot(a.left, b.along), ar = dot(a.right, b.along);
+    if (al * ar >= 0.0) return false;
+    if (pair_.b.faces.empty()) return true;
     // Both arcs cross the other's circle; now they have to do so on the same half of the sphere.
-    const Vec3 on_arc_a = std::abs(bv) * a + std::abs(av) * b;
-    const Vec3 on_arc_b = std::abs(du) * c + std::abs(cu) * d;
+    const Vec3 on_arc_a = std::abs(ar) * a.left + std::abs(al) * a.right;
+    const Vec3 on_arc_b = std::abs(br) * b.left + std::abs(bl) * b.right;
     return dot(on_arc_a, on_arc_b) > 0.0;
   }
-  void try_edge_pair(const Vec3& p, const Vec3& u, const Vec3& q, const Vec3& v) {
-    Vec3 n = cross(u, v);
+  void try_edge_pair(const NearEdge& a, const NearEdge& b) {
+    Vec3 n = cross(a.along, b.along);
     const double length2 = squared_norm(n);
-    if (length2 <= kParallel * squared_norm(u) * squared_norm(v)) return;
+    if (length2 <= kParallel * squared_norm(a.along) * squared_norm(b.along)) return;
     n *= 1.0 / std::sqrt(length2);
-    // Out of a solid its edge lies outwards of its middle; of two segments, the direction between their middles.
-    const double outwards = pair_.a.faces.empty() ? dot(n, pair_.centre_b() - q) : dot(n, p - pair_.centre_a());
+    // Seen from its middle, the edge of a solid lies outwards.
+    const double outwards =
+        pair_.a.faces.empty() ? dot(n, pair_.centre_b() - b.from) : dot(n, a.from - pair_.centre_a());
     if (outwards < 0.0) n = -n;
-    const double s = dot(n, q - p);
+    const double s = dot(n, b.from - a.from);
     if (s <= best_.separation) return;
-    const auto [on_a, on_b] = nearest_of_lines(p, u, q, v);
+    const auto [on_a, on_b] = nearest_of_lines(a.from, a.along, b.from, b.along);
     best_ = {n, s, true, on_a, on_b};
   }
 

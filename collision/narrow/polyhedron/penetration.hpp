@@ -20,10 +20,17 @@ struct Axis {
   Vec3 on_a, on_b;          ///< where the edges come nearest, else the shared point [m], frame of a
 };
 
+/// An edge that can be part of the best axis, in the frame of a.
+struct NearEdge {
+  Vec3 from, along;    ///< [m]
+  Vec3 left, right;    ///< outward normals of its faces; of b's edges turned round
+  double depth = 0.0;  ///< of the shared point below the shallower face [m]
+};
+
 /// Buffers of penetration(), kept by the caller.
 struct AxisScratch {
-  std::vector<double> depth_a, depth_b;  // of p below each face
-  std::vector<std::uint32_t> edges_a, edges_b;
+  std::vector<double> depth_a, depth_b;  ///< of the shared point below each face [m]
+  std::vector<NearEdge> edges_a, edges_b;
 };
 
 /// The axis of greatest separation of two solids that share the point `p` [m], in the frame of a, or touch there. At least one

@@ -2,6 +2,7 @@
 
 #include "gjk.hpp"
 #include "manifold.hpp"
+#include "mesh_contacts.hpp"
 #include "penetration.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "segments.hpp"
@@ -14,6 +15,7 @@ namespace {
 struct Scratch {
   AxisScratch axes;
   Manifold manifold;
+  MeshScratch mesh;
 };
 
 bool is_polytope(ShapeKind kind) {
@@ -45,29 +47,66 @@ void collide_polytopes(const Polytope& a, const Pose& pose_a, const Polytope& b,
   if (meet(pair, reach, scratch.axes, meeting)) make_manifold(pair, meeting, reach, scratch.manifold);
 }
 
+/// Appends the contacts of one pair. `swapped`: what was computed as a is collider b.
+class Writer {
+ public:
+  Writer(const ColliderView& colliders, const ColliderPair& pair, bool swapped, ContactBuffer& out)
+      : colliders_{colliders},
+        pair_{pair},
+        pose_{colliders.pose[swapped ? pair.b : pair.a]},
+        swapped_{swapped},
+        out_{out} {}
+
+  void add(const Vec3& at, const Vec3& normal, double gap, std::uint64_t feature) {
+    const Vec3 n = rotate(pose_.orientation, normal);
+    out_.push_back({colliders_.body[pair_.a], colliders_.body[pair_.b], colliders_.ordinal[pair_.a],
+                    colliders_.ordinal[pair_.b], feature, transform(pose_, at), swapped_ ? -n : n, gap});
+  }
+
+ private:
+  const ColliderView& colliders_;
+  const ColliderPair& pair_;
+  const Pose& pose_;
+  bool swapped_;
+  ContactBuffer& out_;
+};
+
 }  // namespace
 }  // namespace polyhedron
 
 bool Polyhedron::supports(ShapeKind a, ShapeKind b) const {
-  return polyhedron::is_polytope(a) && polyhedron::is_polytope(b);
+  using polyhedron::is_polytope;
+  if (is_polytope(a) && is_polytope(b)) return true;
+  return (is_polytope(a) && b == ShapeKind::triangle_mesh) || (a == ShapeKind::triangle_mesh && is_polytope(b));
 }
 
 void Polyhedron::bind(const ShapeSet& shapes, std::size_t first_new_primitive) {
   polytopes_.add(shapes, first_new_primitive);
+  const auto primitives = shapes.primitives();
+  for (std::size_t i = mesh_of_.size(); i < primitives.size(); ++i) {
+    mesh_of_.push_back(static_cast<std::uint32_t>(meshes_.size()));
+    if (primitives[i].kind != ShapeKind::triangle_mesh) continue;
+    meshes_.emplace_back(shapes.vertices(),
+                         shapes.triangles().subspan(primitives[i].first_triangle, primitives[i].triangle_count));
+  }
 }
 
 void Polyhedron::collide(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) const {
   using namespace polyhedron;
   Scratch scratch;
   for (const ColliderPair& pair : pairs) {
-    const Polytope a = polytopes_[colliders.primitive[pair.a]], b = polytopes_[colliders.primitive[pair.b]];
-    const Pose& pose = colliders.pose[pair.a];
-    collide_polytopes(a, pose, b, colliders.pose[pair.b], pair.reach, scratch);
-    if (scratch.manifold.points.empty()) continue;
-    const Vec3 normal = rotate(pose.orientation, scratch.manifold.normal);
-    for (const ManifoldPoint& point : scratch.manifold.points) {
-      out.push_back({colliders.body[pair.a], colliders.body[pair.b], colliders.ordinal[pair.a],
-                     colliders.ordinal[pair.b], point.feature, transform(pose, point.at), normal, point.gap});
+    const bool mesh_a = colliders.kind[pair.a] == ShapeKind::triangle_mesh;
+    if (mesh_a || colliders.kind[pair.b] == ShapeKind::triangle_mesh) {
+      const ColliderIndex mesh = mesh_a ? pair.a : pair.b, solid = mesh_a ? pair.b : pair.a;
+      mesh_contacts(meshes_[mesh_of_[colliders.primitive[mesh]]], colliders.pose[mesh],
+                    polytopes_[colliders.primitive[solid]], colliders.pose[solid], pair.reach, scratch.mesh);
+      Writer write{colliders, pair, !mesh_a, out};
+      for (const MeshPoint& p : scratch.mesh.points) write.add(p.at, p.normal, p.gap, p.feature);
+    } else {
+      collide_polytopes(polytopes_[colliders.primitive[pair.a]], colliders.pose[pair.a],
+                        polytopes_[colliders.primitive[pair.b]], colliders.pose[pair.b], pair.reach, scratch);
+      Writer write{colliders, pair, false, out};
+      for (const ManifoldPoint& p : scratch.manifold.points) write.add(p.at, scratch.manifold.normal, p.gap, p.feature);
     }
   }
 }
@@ -79,7 +118,8 @@ namespace {
 void list(scree::PluginList& plugins) {
   plugins
       .add<scree::NarrowPhase, scree::Polyhedron>(
-          "polyhedron", "Several points between boxes, convex hulls and capsules, by separating axes and clipping.")
+          "polyhedron",
+          "Several points between boxes, convex hulls, capsules and triangle meshes, by separating axes and clipping.")
       .default_place = 2;
 }
 

@@ -1,15 +1,17 @@
-// Narrow phase `polyhedron`: several points between boxes, hulls and capsules.
+// Narrow phase `polyhedron`: several points between boxes, hulls, capsules and triangle meshes.
 //
 // The distance by Gilbert, Johnson and Keerthi; the depth by separating axes; the points by clipping faces. Nothing is kept
 // between steps.
 #pragma once
 
+#include "mesh_surface.hpp"
 #include "polytope.hpp"
 #include "scree/interfaces/narrow_phase.hpp"
 
 namespace scree {
 
-/// Contacts of boxes, convex hulls and capsules with each other. Features name corners and pairs of edges.
+/// Contacts of boxes, convex hulls and capsules with each other and with triangle meshes. Features name corners and pairs of
+/// edges, on meshes within a triangle.
 class Polyhedron : public NarrowPhase {
  public:
   [[nodiscard]] bool supports(ShapeKind a, ShapeKind b) const override;
@@ -18,6 +20,8 @@ class Polyhedron : public NarrowPhase {
 
  private:
   polyhedron::PolytopeSet polytopes_;
+  std::vector<polyhedron::MeshSurface> meshes_;
+  std::vector<std::uint32_t> mesh_of_;  // by primitive
 };
 
 }  // namespace scree

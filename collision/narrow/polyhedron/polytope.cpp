@@ -92,11 +92,12 @@ std::uint32_t farthest(const Polytope& solid, const Vec3& direction) {
     most = better ? value : most;
     place = better ? Places{} + std::int64_t{g} : place;
   }
-  std::uint32_t best = 0;
-  for (std::uint32_t k = 1; k < kLane; ++k) {
-    if (most[k] > most[best] || (most[k] == most[best] && place[k] < place[best])) best = k;
-  }
-  return std::min(static_cast<std::uint32_t>(place[best]) * kLane + best, solid.corner_count - 1);
+  // The least index of those that reach the maximum, without branches that nobody can predict.
+  const double top = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  const Places index = most == top ? place * kLane + Places{0, 1, 2, 3} : Places{} + kNever;
+  const std::int64_t first = std::min(std::min(index[0], index[1]), std::min(index[2], index[3]));
+  return static_cast<std::uint32_t>(std::min(first, std::int64_t{solid.corner_count - 1}));
 }
 
 void append_lanes(std::span<const Vec3> corners, std::vector<double>& lanes) {
