@@ -179,21 +179,16 @@ void line_points(const PlacedPair& pair, const Meeting& meeting, Maker& maker) {
 }  // namespace
 
 void make_manifold(const PlacedPair& pair, const Meeting& meeting, double reach, Manifold& out) {
-  out.points.clear();
-  Maker maker{pair, reach, out};
   const Reference a = reference_of_a(pair, meeting), b = reference_of_b(pair, meeting);
   const bool use_a = a.face != kNoFace && (b.face == kNoFace || a.separation >= b.separation - kSameGap * pair.size);
-  out.of_face = use_a || b.face != kNoFace;
-  if (out.of_face) {
-    const Reference& reference = use_a ? a : b;
-    out.normal = use_a ? reference.out : -reference.out;
-    face_points(pair, reference, use_a, out, maker);
-    add_deepest(pair, reference, use_a, maker);
-  } else {
-    out.normal = meeting.normal;
-    line_points(pair, meeting, maker);
-    if (!maker.has(meeting.gap)) maker.add(meeting.on_a, meeting.on_b, meeting.gap, kNoFeature);
-  }
+  if (!use_a && b.face == kNoFace) return make_edge_manifold(pair, meeting, reach, out);
+  out.points.clear();
+  out.of_face = true;
+  const Reference& reference = use_a ? a : b;
+  out.normal = use_a ? reference.out : -reference.out;
+  Maker maker{pair, reach, out};
+  face_points(pair, reference, use_a, out, maker);
+  add_deepest(pair, reference, use_a, maker);
   if (out.points.size() > kDirections + 1) keep_support(out.normal, out.points);
   sort_by_feature(out.points);
 }
@@ -211,20 +206,38 @@ void make_face_manifold(const PlacedPair& pair, std::uint32_t face, double reach
   sort_by_feature(out.points);
 }
 
+void make_edge_manifold(const PlacedPair& pair, const Meeting& meeting, double reach, Manifold& out) {
+  out.points.clear();
+  out.of_face = false;
+  out.normal = meeting.normal;
+  Maker maker{pair, reach, out};
+  line_points(pair, meeting, maker);
+  if (!maker.has(meeting.gap)) maker.add(meeting.on_a, meeting.on_b, meeting.gap, kNoFeature);
+  sort_by_feature(out.points);
+}
+
 void keep_support(const Vec3& normal, std::vector<ManifoldPoint>& points) {
   const ContactFrame frame = contact_frame(normal);
   std::array<std::size_t, kDirections + 1> kept{};
+  std::size_t deepest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].gap < points[kept[0]].gap) kept[0] = i;
+    if (points[i].gap < points[deepest].gap) deepest = i;
   }
+  double reach = 0.0;  // of the points about the first [m]
+  double least = std::numeric_limits<double>::infinity();
   for (int d = 0; d < kDirections; ++d) {
     const double angle = 2.0 * std::numbers::pi * d / kDirections;
     const Vec3 along = std::cos(angle) * frame.tangent1 + std::sin(angle) * frame.tangent2;
-    std::size_t& best = kept[static_cast<std::size_t>(d) + 1];
+    std::size_t best = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (dot(along, points[i].at) > dot(along, points[best].at)) best = i;
     }
+    kept[static_cast<std::size_t>(d)] = best;
+    reach = std::max(reach, dot(along, points[best].at - points[0].at));
+    least = std::min(least, points[best].gap);
   }
+  // On a level face every point is the deepest; there the extreme ones do.
+  kept[kDirections] = points[deepest].gap < least - kSameGap * reach ? deepest : kept[0];
   std::sort(kept.begin(), kept.end());
   const auto last = std::unique(kept.begin(), kept.end());
   std::size_t count = 0;

@@ -47,6 +47,9 @@ void make_manifold(const PlacedPair& pair, const Meeting& meeting, double reach,
 /// The same with face `face` of a as the reference, and nothing beside that face.
 void make_face_manifold(const PlacedPair& pair, std::uint32_t face, double reach, Manifold& out);
 
+/// The same along the meeting's own normal: the ends of two parallel edges, or one point.
+void make_edge_manifold(const PlacedPair& pair, const Meeting& meeting, double reach, Manifold& out);
+
 /// Keeps the deepest point and the extreme ones in seven directions across `normal`: what holds up a solid.
 void keep_support(const Vec3& normal, std::vector<ManifoldPoint>& points);
 

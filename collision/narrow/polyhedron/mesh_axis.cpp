@@ -7,6 +7,8 @@ namespace {
 
 /// The triangle's own normal is kept unless another one is shallower by this, in sizes.
 constexpr double kFaceBias = 1e-4;
+/// Cosine of 1e-5: within it a direction is the triangle's normal.
+constexpr double kUpright = 1.0 - 5e-11;
 /// Corners within this of the farthest, in sizes of the triangle, carry the contact together.
 constexpr double kSameHeight = 1e-6;
 /// Squared sine below which edges are parallel.
@@ -34,7 +36,7 @@ void for_edge_pairs(const MeshSurface& mesh, const MeshTriangle& triangle, const
         const Vec3 way = pair.b.corner(edge.to) - pair.b.corner(edge.from);
         if (dot(cross(left, way), in_b) < 0.0 || dot(cross(way, right), in_b) < 0.0) continue;
       }
-      if (mesh.edge_admits(triangle, k, m)) visit(m, p, u, q, v);
+      if (dot(m, out) < kUpright && mesh.edge_admits(triangle, k, m)) visit(m, p, u, q, v);
     }
   }
 }
@@ -64,7 +66,8 @@ Axis axis_out_of(const MeshSurface& mesh, const MeshTriangle& triangle, const Pl
   const auto better = [&](double s) { return s > best.separation + (best.normal == out ? bias : 0.0); };
   for (const Face& face : pair.b.faces) {
     const Vec3 m = -(pair.turn * face.normal);
-    if (dot(m, out) <= 0.0) continue;
+    const double cosine = dot(m, out);
+    if (cosine <= 0.0 || cosine >= kUpright) continue;
     const double s = pair.separation(m);
     if (better(s) && admits(mesh, triangle, m)) best = {m, s, false, p, p};
   }

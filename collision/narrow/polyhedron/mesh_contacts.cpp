@@ -10,14 +10,16 @@
 namespace scree::polyhedron {
 namespace {
 
-/// Directions within a degree of a triangle's normal are that normal.
-constexpr double kSameDirection = 0.99985;
 /// In sizes of the solid: what neighbours report nearer than this to each other is one point, and points this near to a plane
 /// lie in it.
 constexpr double kSamePoint = 1e-4;
 constexpr double kSamePlane = 1e-5;
+/// Cosine of a degree: normals that differ by less look alike.
+constexpr double kAlike = 0.99985;
 /// Normals that differ by less are those of one plane.
 constexpr double kSameNormal = 1.0 - 1e-10;
+/// Cosine of 1e-5: within it a direction is the triangle's normal.
+constexpr double kUpright = 1.0 - 5e-11;
 /// A solid apart from a triangle cannot be below it: what clipping finds there is beyond the rim.
 constexpr double kBelow = 1e-6;
 
@@ -32,28 +34,54 @@ Aabb box_of(const Polytope& solid, const Pose& pose, const Pose& mesh_pose, doub
 /// Meets one solid with the triangles of one mesh.
 class Meeter {
  public:
-  Meeter(const MeshSurface& mesh, double reach, MeshScratch& scratch) : mesh_{mesh}, reach_{reach}, scratch_{scratch} {}
+  Meeter(const MeshSurface& mesh, const Pose& mesh_pose, const Polytope& solid, const Pose& pose, double reach,
+         MeshScratch& scratch)
+      : mesh_{mesh}, mesh_pose_{mesh_pose}, solid_{solid}, pose_{pose}, reach_{reach}, scratch_{scratch} {}
 
-  /// Adds what a triangle contributes. `behind`: also when the middle of the solid is behind a triangle of a closed mesh.
-  void meet(const MeshTriangle& triangle, const PlacedPair& pair, bool behind) {
-    const double offset = dot(triangle.normal, triangle.corner[0]);
-    const double middle = dot(triangle.normal, pair.centre_b()) - offset;
+  /// Finds the points of a triangle that the solid does not cut; others are put down as cuts. `behind`: also when the middle of
+  /// the solid is behind a triangle of a closed mesh.
+  void meet(std::uint32_t i, bool behind) {
+    const TrianglePolytope triangle{mesh_[i]};
+    const PlacedPair pair{triangle.view(), mesh_pose_, solid_, pose_};
+    const double middle = dot(mesh_[i].normal, pair.centre_b() - mesh_[i].corner[0]);
     if (mesh_.closed() && middle < 0.0 && !behind) return;
     const bool turned = !mesh_.closed() && middle < 0.0;
-    const Vec3 out = turned ? -triangle.normal : triangle.normal;
-    if (pair.separation(out) - pair.b.radius >= reach_) return;
-    const Distance d = distance(pair, reach_ + pair.b.radius);
+    const Vec3 out = turned ? -mesh_[i].normal : mesh_[i].normal;
+    if (pair.separation(out) - solid_.radius >= reach_) return;
+    const Distance d = distance(pair, reach_ + solid_.radius);
     if (d.approach == Approach::beyond) return;
     if (d.approach == Approach::touching) {
-      const Axis axis = axis_out_of(mesh_, triangle, pair, out, 0.5 * (d.on_a + d.on_b));
-      if (axis.normal == out) return add_face(triangle, pair, turned, false);
-      make_manifold(pair, {axis.normal, axis.separation, axis.on_a, axis.on_b}, reach_, scratch_.manifold);
-      return add(triangle);
+      const Axis axis = axis_out_of(mesh_, mesh_[i], pair, out, 0.5 * (d.on_a + d.on_b));
+      scratch_.cuts.push_back({i, axis.normal == out, turned, {axis.normal, axis.separation, axis.on_a, axis.on_b}});
+    } else if (dot(d.normal, out) >= kUpright || !admits_at(mesh_[i], d)) {
+      add_face(i, pair, turned, true);
+    } else {
+      add_edge(i, pair, {d.normal, d.length, d.on_a, d.on_b});
     }
-    if (dot(d.normal, out) >= kSameDirection) return add_face(triangle, pair, turned, false);
-    if (!admits_at(triangle, d)) return add_face(triangle, pair, turned, true);
-    make_manifold(pair, {d.normal, d.length, d.on_a, d.on_b}, reach_, scratch_.manifold);
-    add(triangle);
+  }
+
+  /// The points of the triangles that are cut. Where a shallower way out, as over an edge, also leads out of another triangle,
+  /// the depth below that one means nothing.
+  void settle_cuts() {
+    auto& cuts = scratch_.cuts;
+    std::sort(cuts.begin(), cuts.end(), [this](const Cut& l, const Cut& r) {
+      return l.way.gap != r.way.gap ? l.way.gap > r.way.gap : mesh_[l.triangle].number < mesh_[r.triangle].number;
+    });
+    const double tie = kSamePlane * (solid_.size + solid_.radius);
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      const Meeting way = cuts[k].way;
+      const auto settled = [&](const Cut& cut) { return cut.way.gap < way.gap - tie && leads_out(way, cut.triangle); };
+      cuts.erase(std::remove_if(cuts.begin() + static_cast<std::ptrdiff_t>(k) + 1, cuts.end(), settled), cuts.end());
+    }
+    for (const Cut& cut : cuts) {
+      const TrianglePolytope triangle{mesh_[cut.triangle]};
+      const PlacedPair pair{triangle.view(), mesh_pose_, solid_, pose_};
+      if (cut.of_face) {
+        add_face(cut.triangle, pair, cut.turned, false);
+      } else {
+        add_edge(cut.triangle, pair, cut.way);
+      }
+    }
   }
 
  private:
@@ -62,29 +90,44 @@ class Meeter {
     std::array<bool, 3> used{};
     for (std::uint32_t k = 0; k < d.count; ++k) used[d.corner_a[k]] = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (used[k] && used[(k + 1) % 3]) {
-        return !used[(k + 2) % 3] && mesh_.edge_admits(triangle, k, d.normal);
-      }
+      if (used[k] && used[(k + 1) % 3]) return !used[(k + 2) % 3] && mesh_.edge_admits(triangle, k, d.normal);
     }
     const auto only = static_cast<std::size_t>(std::find(used.begin(), used.end(), true) - used.begin());
     return mesh_.corner_admits(triangle, only, d.normal);
   }
-  void add_face(const MeshTriangle& triangle, const PlacedPair& pair, bool turned, bool apart) {
+  /// True when the solid, moved out along a way, no longer cuts a triangle.
+  [[nodiscard]] bool leads_out(const Meeting& way, std::uint32_t i) const {
+    const double tie = kSamePlane * (solid_.size + solid_.radius);
+    const TrianglePolytope triangle{mesh_[i]};
+    Pose moved = pose_;
+    moved.position += rotate(mesh_pose_.orientation, (tie - way.gap) * way.normal);
+    return distance({triangle.view(), mesh_pose_, solid_, moved}, tie).approach != Approach::touching;
+  }
+  void add_face(std::uint32_t i, const PlacedPair& pair, bool turned, bool apart) {
     make_face_manifold(pair, turned ? 1 : 0, reach_, scratch_.manifold);
     if (apart) {
       std::erase_if(scratch_.manifold.points,
-                    [&](const ManifoldPoint& point) { return point.gap < -kBelow * pair.size; });
+                    [&](const ManifoldPoint& point) { return point.gap + solid_.radius < -kBelow * pair.size; });
     }
-    add(triangle);
+    add(i);
   }
-  void add(const MeshTriangle& triangle) {
+  /// At an edge or a corner; a face of the solid may lie on it, if the mesh admits that face's direction.
+  void add_edge(std::uint32_t i, const PlacedPair& pair, const Meeting& way) {
+    make_manifold(pair, way, reach_, scratch_.manifold);
+    if (!admits(mesh_, mesh_[i], scratch_.manifold.normal)) make_edge_manifold(pair, way, reach_, scratch_.manifold);
+    add(i);
+  }
+  void add(std::uint32_t i) {
     for (const ManifoldPoint& point : scratch_.manifold.points) {
       scratch_.found.push_back({point.at, scratch_.manifold.normal, point.gap,
-                                std::uint64_t{triangle.number} << 32 | point.feature, scratch_.manifold.of_face});
+                                std::uint64_t{mesh_[i].number} << 32 | point.feature, scratch_.manifold.of_face});
     }
   }
 
   const MeshSurface& mesh_;
+  const Pose& mesh_pose_;
+  const Polytope& solid_;
+  const Pose& pose_;
   double reach_;
   MeshScratch& scratch_;
 };
@@ -96,8 +139,7 @@ void drop_doubles(double size, std::vector<MeshPoint>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto end = points.begin() + static_cast<std::ptrdiff_t>(count);
     const auto known = std::find_if(points.begin(), end, [&](const MeshPoint& other) {
-      return squared_norm(other.at - points[i].at) <= same * same &&
-             dot(other.normal, points[i].normal) > kSameDirection;
+      return squared_norm(other.at - points[i].at) <= same * same && dot(other.normal, points[i].normal) > kAlike;
     });
     if (known == end) {
       points[count++] = points[i];
@@ -125,7 +167,7 @@ void thin_planes(double size, MeshScratch& scratch) {
     const auto count = static_cast<std::uint32_t>(others - found.begin());
     scratch.plane.clear();
     for (std::uint32_t i = 0; i < count; ++i) scratch.plane.push_back({found[i].at, found[i].gap, i});
-    if (count > 4) keep_support(first.normal, scratch.plane);
+    if (count > 3) keep_support(first.normal, scratch.plane);
     for (const ManifoldPoint& kept : scratch.plane) scratch.points.push_back(found[kept.feature]);
     found.erase(found.begin(), others);
   }
@@ -137,16 +179,15 @@ void mesh_contacts(const MeshSurface& mesh, const Pose& mesh_pose, const Polytop
                    double reach, MeshScratch& scratch) {
   scratch.points.clear();
   scratch.found.clear();
+  scratch.cuts.clear();
   mesh.near(box_of(solid, pose, mesh_pose, reach), scratch.near);
-  Meeter meeter{mesh, reach, scratch};
+  Meeter meeter{mesh, mesh_pose, solid, pose, reach, scratch};
   // Where nothing else holds the solid, it may have sunk in by more than half.
   for (const bool behind : {false, true}) {
-    if (behind && (!mesh.closed() || !scratch.found.empty())) break;
-    for (const std::uint32_t i : scratch.near) {
-      const TrianglePolytope triangle{mesh[i]};
-      meeter.meet(mesh[i], PlacedPair{triangle.view(), mesh_pose, solid, pose}, behind);
-    }
+    if (behind && (!mesh.closed() || !scratch.found.empty() || !scratch.cuts.empty())) break;
+    for (const std::uint32_t i : scratch.near) meeter.meet(i, behind);
   }
+  meeter.settle_cuts();
   const auto by_feature = [](const MeshPoint& l, const MeshPoint& r) { return l.feature < r.feature; };
   std::sort(scratch.found.begin(), scratch.found.end(), by_feature);
   drop_doubles(solid.size + solid.radius, scratch.found);

@@ -19,10 +19,20 @@ struct MeshPoint {
   double gap = 0.0;           ///< [m]
   std::uint64_t feature = 0;  ///< triangle << 32 | part
   bool of_face = false;
+  double separation = 0.0;  ///< of the swept solid along the normal, over the whole of it [m]
+};
+
+/// A triangle that the solid cuts, and the way out of it.
+struct Cut {
+  std::uint32_t triangle = 0;  ///< in the tree's order
+  bool of_face = false;        ///< along the triangle's own normal
+  bool turned = false;         ///< on the back of an open mesh
+  Meeting way;
 };
 
 /// Buffers of mesh_contacts(), kept by the caller.
 struct MeshScratch {
+  std::vector<Cut> cuts;
   std::vector<std::uint32_t> near;
   Manifold manifold;
   std::vector<MeshPoint> points, found;

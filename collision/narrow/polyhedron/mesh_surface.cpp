@@ -8,8 +8,8 @@ namespace scree::polyhedron {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
-/// Sine of the angle by which a surface may rise and still count as level.
-constexpr double kLevel = 0.0087;
+/// Sine of the angle by which a surface may rise and still count as level: rounding, and no more, or planes would get bumps.
+constexpr double kLevel = 1e-6;
 
 Vec3 middle(const MeshTriangle& t) { return t.corner[0] + t.corner[1] + t.corner[2]; }
 

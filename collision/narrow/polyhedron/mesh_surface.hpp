@@ -38,7 +38,7 @@ class MeshSurface {
   void near(const Aabb& box, std::vector<std::uint32_t>& out) const;
   [[nodiscard]] const MeshTriangle& operator[](std::uint32_t i) const { return triangles_[i]; }
 
-  /// True when the surface about corner k of a triangle does not rise above it along m, to half a degree.
+  /// True when the surface about corner k of a triangle does not rise above it along m.
   [[nodiscard]] bool corner_admits(const MeshTriangle& t, std::size_t k, const Vec3& m) const;
   /// The same for the edge from corner k to the next one.
   [[nodiscard]] bool edge_admits(const MeshTriangle& t, std::size_t k, const Vec3& m) const;
