@@ -7,6 +7,7 @@
 #include "command_line.hpp"
 #include "scree/base/error.hpp"
 #include "scree/base/release.hpp"
+#include "scree/geometry/decomposition_cache.hpp"
 
 namespace {
 
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   scree::map_large_blocks();
+  scree::DecompositionCache::of_program().keep_in(scree::user_cache_folder());
   try {
     const int exit_code = scree::run_command_line(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "scree/base/error.hpp"
 #include "scree/base/require.hpp"
+#include "scree/geometry/decomposition_cache.hpp"
 #include "scree/geometry/mass_properties.hpp"
 #include "scree/geometry/solid_deviation.hpp"
 #include "scree/geometry/sphere_fit.hpp"
@@ -54,11 +56,14 @@ SphereDecomposition fit_balls(const Solid& unit, int count) {
           deviation.hausdorff() / equivalent_diameter(unit.volume)};
 }
 
-SphereDecomposition decompose(const Solid& unit, const SphereDecompositionOptions& options) {
+void check(const SphereDecompositionOptions& options) {
   if (options.max_spheres < 1 || options.max_spheres > 1000) {
     throw Error{ErrorKind::usage,
                 "a solid can be decomposed into 1 to 1000 spheres, not " + std::to_string(options.max_spheres)};
   }
+}
+
+SphereDecomposition decompose_anew(const Solid& unit, const SphereDecompositionOptions& options) {
   if (options.enough_hausdorff > 0.0) {
     for (int count = 1; count < options.max_spheres; count *= 2) {
       SphereDecomposition few = fit_balls(unit, count);
@@ -66,6 +71,39 @@ SphereDecomposition decompose(const Solid& unit, const SphereDecompositionOption
     }
   }
   return fit_balls(unit, options.max_spheres);
+}
+
+/// The bytes of what an answer depends on.
+class Content {
+ public:
+  explicit Content(std::string kind) : bytes_{std::move(kind)} {}
+
+  Content& add(double x) {
+    const double value = x == 0.0 ? 0.0 : x;  // -0 and 0 are one length
+    return append(&value, sizeof value);
+  }
+  Content& add(const Vec3& v) { return add(v.x).add(v.y).add(v.z); }
+  Content& add(const TriangleMesh& mesh) {
+    add(static_cast<double>(mesh.vertices.size()));
+    for (const Vec3& v : mesh.vertices) add(v);
+    for (const Triangle& t : mesh.triangles) append(t.data(), sizeof t);
+    return *this;
+  }
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  Content& append(const void* data, std::size_t size) {
+    bytes_.append(static_cast<const char*>(data), size);
+    return *this;
+  }
+  std::string bytes_;
+};
+
+/// The balls for a solid of size one, computed or remembered.
+SphereDecomposition decompose(const Solid& unit, Content content, const SphereDecompositionOptions& options) {
+  check(options);
+  content.add(options.max_spheres).add(options.enough_hausdorff);
+  return DecompositionCache::of_program().find_or(content.bytes(), [&] { return decompose_anew(unit, options); });
 }
 
 /// Moves and scales a mesh to size one about the middle of its box; returns the map back.
@@ -86,13 +124,16 @@ SphereDecomposition back(SphereDecomposition d, const UnitFrame& frame) {
 SphereDecomposition decompose_box(const Vec3& h, const SphereDecompositionOptions& options) {
   require_lengths({h.x, h.y, h.z}, "box");
   const double size = 2.0 * norm(h);
-  return scaled(decompose(box_solid(snapped(h / size)), options), size);
+  const Vec3 unit = snapped(h / size);
+  return scaled(decompose(box_solid(unit), Content{"box"}.add(unit), options), size);
 }
 
 SphereDecomposition decompose_cylinder(double radius, double half_length, const SphereDecompositionOptions& options) {
   require_lengths({radius, half_length}, "cylinder");
   const double size = 2.0 * std::hypot(radius, half_length);
-  return scaled(decompose(cylinder_solid(snapped(radius / size), snapped(half_length / size)), options), size);
+  const double unit_radius = snapped(radius / size), unit_half = snapped(half_length / size);
+  const Content content = Content{"cylinder"}.add(unit_radius).add(unit_half);
+  return scaled(decompose(cylinder_solid(unit_radius, unit_half), content, options), size);
 }
 
 SphereDecomposition decompose_hull(const ConvexHull& hull, const SphereDecompositionOptions& options) {
@@ -101,7 +142,8 @@ SphereDecomposition decompose_hull(const ConvexHull& hull, const SphereDecomposi
   ConvexHull unit = hull;
   for (Vec3& v : unit.vertices) v = frame.to_unit(v);
   for (Face& f : unit.faces) f.offset = (f.offset - dot(f.normal, frame.origin)) / frame.size;
-  return back(decompose(hull_solid(unit), options), frame);
+  const Content content = Content{"hull"}.add(surface_of(unit));
+  return back(decompose(hull_solid(unit), content, options), frame);
 }
 
 SphereDecomposition decompose_mesh(const TriangleMesh& mesh, const SphereDecompositionOptions& options) {
@@ -109,7 +151,7 @@ SphereDecomposition decompose_mesh(const TriangleMesh& mesh, const SphereDecompo
   const UnitFrame frame{0.5 * (box.lower + box.upper), mesh_solid(mesh).size};
   TriangleMesh unit = mesh;
   for (Vec3& v : unit.vertices) v = frame.to_unit(v);
-  return back(decompose(mesh_solid(unit), options), frame);
+  return back(decompose(mesh_solid(unit), Content{"mesh"}.add(unit), options), frame);
 }
 
 SphereDecomposition scaled(SphereDecomposition d, double factor) {

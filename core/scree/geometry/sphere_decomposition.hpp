@@ -34,8 +34,9 @@ struct SphereDecomposition {
 };
 
 /// Decomposes a box about the origin. @param half_lengths [m]
-/// Deterministic; equal for similar solids up to the scale, so that one decomposition an aspect ratio may be kept and
-/// scaled. The errors are measured (see solid_deviation.hpp), not promised: the caller decides what is too much.
+/// Deterministic; equal for similar solids up to the scale, so that one decomposition an aspect ratio is kept and scaled
+/// (decomposition_cache.hpp). The errors are measured (see solid_deviation.hpp), not promised: the caller decides what is
+/// too much.
 /// @throws Error (usage) for lengths that are not positive and finite, or a count of balls out of range.
 [[nodiscard]] SphereDecomposition decompose_box(const Vec3& half_lengths,
                                                 const SphereDecompositionOptions& options = {});

@@ -97,12 +97,14 @@ void Emitter::tell_of_backlog(double time) {
 }
 
 std::vector<ReportTable> Emitter::report() const {
-  if (postponed_ == 0) return {};
+  std::vector<ReportTable> tables = mixture_->report();
+  if (postponed_ == 0) return tables;
   char waiting[40];
   std::snprintf(waiting, sizeof waiting, "%.0f", backlog());
-  return {{"feed " + name_,
-           {"born", "steps in which one found no place", "due and not born"},
-           {{std::to_string(emitted_), std::to_string(postponed_), waiting}}}};
+  tables.push_back({"feed " + name_,
+                    {"born", "steps in which one found no place", "due and not born"},
+                    {{std::to_string(emitted_), std::to_string(postponed_), waiting}}});
+  return tables;
 }
 
 bool Emitter::is_due(const Particle& particle, double until) const {

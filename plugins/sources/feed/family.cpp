@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "scan_family.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
 
@@ -36,8 +37,8 @@ std::string describe(const std::string& name, const TemplateSet& set) {
   char text[240];
   std::snprintf(
       text, sizeof text,
-      "family '%s': up to %zu spheres a particle, volume within %.2f %%, Hausdorff distance within %.2f %% of the size",
-      name.c_str(), spheres, 100 * volume, 100 * hausdorff);
+      "family '%s': up to %zu spheres a particle, volume within %.2f %%, Hausdorff distance within %.2f %% of %s",
+      name.c_str(), spheres, 100 * volume, 100 * hausdorff, set.rows.used > 0 ? "the largest extent" : "the size");
   return set.redrawn == 0 ? text : text + ("; " + std::to_string(set.redrawn) + " random hulls were drawn again");
 }
 
@@ -66,16 +67,20 @@ double mean_mass(const Family& family, const SceneServices& services) {
 }  // namespace
 
 std::vector<Parameter> Family::parameters() {
+  std::vector<Variant> shapes = particle_shapes();
+  shapes.push_back(scan_shape());
+  Parameter size =
+      Distribution::parameter("size", "m", "diameter of the sphere of equal volume; not for scans").optional();
   return {Parameter::text("name", "of the family, for messages"),
           Parameter::text("material", "name of a material"),
           Parameter::number("share", "1", "its part of the feed, relative to the other families'")
               .above(0.0)
               .by_default(1.0),
-          Distribution::parameter("size", "m", "diameter of the sphere of equal volume"),
+          std::move(size),
           Parameter::variant("density", Distribution::variants("kg/m3"), "mass density; the material's when left out")
               .with_shorthand("constant", "value")
               .optional(),
-          Parameter::variant("shape", particle_shapes(), "the shape of its particles"),
+          Parameter::variant("shape", std::move(shapes), "the shape of its particles"),
           Parameter::choice("alignment", {"random", "fixed"}, "orientation at birth").by_default("random"),
           Parameter::columns("attributes", Distribution::variants("1"), "1", "body attributes, in SI")
               .with_shorthand("constant", "value")
@@ -85,14 +90,55 @@ std::vector<Parameter> Family::parameters() {
 Family::Family(const Options& options, SceneServices& services)
     : name_{options.text("name")},
       share_{options.number("share")},
-      size_{options.table("size")},
       random_alignment_{options.text("alignment") == "random"} {
-  TemplateSet set = make_templates(options.table("shape"), name_);
-  if (options.table("shape").type() != "sphere") services.log(describe(name_, set));
-  templates_ = std::move(set.templates);
   const std::int64_t material = services.materials().find(options.text("material"));
   if (material < 0) static_cast<void>(services.material(options.text("material")));  // throws the sentence
   material_ = static_cast<std::uint32_t>(material);
+  if (options.table("shape").type() == "scan") {
+    make_scanned(options, services);
+  } else {
+    make_designed(options, services);
+  }
+  if (options.has("attributes")) {
+    const Options& columns = options.table("attributes");
+    for (const std::string& column : columns.names()) {
+      const AttributeId id = services.provide_attribute({column, "1", "given by feeds", 0.0, {}});
+      attributes_.emplace_back(id, Distribution{columns.table(column)});
+    }
+  }
+}
+
+void Family::make_scanned(const Options& options, SceneServices& services) {
+  for (const char* key : {"size", "density"}) {
+    if (options.has(key)) {
+      throw options.error(key, "of family '" + name_ + "' is measured: its scanned particles have the " +
+                                   std::string{key} + " of their table; leave it out");
+    }
+  }
+  TemplateSet set = make_scan_templates(options.table("shape"), name_, services);
+  services.log(describe(name_, set));
+  templates_ = std::move(set.templates);
+  rows_ = set.rows;
+  for (const ParticleTemplate& unit : templates_)
+    shared_.push_back(services.shapes().add(scaled_shape(unit, unit.measured.size)));
+}
+
+void Family::make_designed(const Options& options, SceneServices& services) {
+  if (!options.has("size")) {
+    throw options.error("family '" + name_ + "' needs 'size', the diameter of the sphere of equal volume");
+  }
+  TemplateSet set = make_templates(options.table("shape"), name_);
+  if (options.table("shape").type() != "sphere") services.log(describe(name_, set));
+  templates_ = std::move(set.templates);
+  read_laws(options, services);
+  if (size_.minimum() == size_.maximum()) {
+    for (const ParticleTemplate& unit : templates_)
+      shared_.push_back(services.shapes().add(scaled_shape(unit, size_.minimum())));
+  }
+}
+
+void Family::read_laws(const Options& options, SceneServices& services) {
+  size_ = Distribution{options.table("size")};
   density_ = options.has("density") ? Distribution{options.table("density")}
                                     : Distribution{services.materials()[material_].density};
   for (const Distribution* law : {&size_, &density_}) {
@@ -104,17 +150,14 @@ Family::Family(const Options& options, SceneServices& services)
     throw options.error(key, "of family '" + name_ + "' must " +
                                  (fixed ? "be above zero" : "never be below zero; give the law a 'min'"));
   }
-  if (options.has("attributes")) {
-    const Options& columns = options.table("attributes");
-    for (const std::string& column : columns.names()) {
-      const AttributeId id = services.provide_attribute({column, "1", "given by feeds", 0.0, {}});
-      attributes_.emplace_back(id, Distribution{columns.table(column)});
-    }
-  }
-  if (size_.minimum() == size_.maximum()) {
-    for (const ParticleTemplate& unit : templates_)
-      shared_.push_back(services.shapes().add(scaled_shape(unit, size_.minimum())));
-  }
+}
+
+std::optional<ReportTable> Family::report() const {
+  if (!rows_) return {};
+  return ReportTable{
+      "scanned particles of family " + name_,
+      {"rows used", "rows refused", "rows of other materials"},
+      {{std::to_string(rows_->used), std::to_string(rows_->refused), std::to_string(rows_->of_other_materials)}}};
 }
 
 NewBody to_body(Particle&& particle, ShapeSet& shapes) {
@@ -122,32 +165,44 @@ NewBody to_body(Particle&& particle, ShapeSet& shapes) {
   return std::move(particle.body);
 }
 
-Particle Family::draw(RandomStream& random) const {
+std::size_t Family::draw_template(RandomStream& random) const {
+  return templates_.size() == 1 ? 0 : random() % templates_.size();
+}
+
+Measured Family::draw_measures(const ParticleTemplate& unit, RandomStream& random) const {
+  if (unit.measured.size > 0.0) return unit.measured;
   const double size = positive(size_, random);
-  const double density = positive(density_, random);
-  const std::size_t pick = templates_.size() == 1 ? 0 : random() % templates_.size();
+  return {size, positive(density_, random)};
+}
+
+Particle Family::draw(RandomStream& random) const {
+  // Scanned particles are drawn as a whole; others draw their size before their variant.
+  const bool scanned = rows_.has_value();
+  Measured own = scanned ? Measured{} : draw_measures(templates_[0], random);
+  const std::size_t pick = draw_template(random);
   const ParticleTemplate& unit = templates_[pick];
+  if (scanned) own = unit.measured;
   Particle particle;
   NewBody& body = particle.body;
   if (shared_.empty()) {
-    particle.shape = scaled_shape(unit, size);
+    particle.shape = scaled_shape(unit, own.size);
   } else {
     body.shape = shared_[pick];
   }
-  particle.bounding_radius = size * unit.bounding_radius;
+  particle.bounding_radius = own.size * unit.bounding_radius;
   body.motion = Motion::dynamic;
   body.material = material_;
   body.pose.orientation = random_alignment_ ? random.orientation() : Quat{};
-  body.mass = density * sphere_volume(size);
-  body.inertia = density * std::pow(size, 5) * unit.unit_inertia;
-  body.radius = 0.5 * size;
+  body.mass = own.density * sphere_volume(own.size);
+  body.inertia = own.density * std::pow(own.size, 5) * unit.unit_inertia;
+  body.radius = 0.5 * own.size;
   for (const auto& [column, law] : attributes_) body.attributes.emplace_back(column, law.sample(random));
   return particle;
 }
 
 double Family::draw_mass(RandomStream& random) const {
-  const double size = positive(size_, random);
-  return positive(density_, random) * sphere_volume(size);
+  const Measured own = draw_measures(rows_ ? templates_[draw_template(random)] : templates_[0], random);
+  return own.density * sphere_volume(own.size);
 }
 
 std::vector<Parameter> Mixture::parameters() {
@@ -167,6 +222,14 @@ Mixture::Mixture(const Options& options, SceneServices& services) {
     }
     cumulative_.push_back((cumulative_.empty() ? 0.0 : cumulative_.back()) + weight);
   }
+}
+
+std::vector<ReportTable> Mixture::report() const {
+  std::vector<ReportTable> tables;
+  for (const Family& family : families_) {
+    if (std::optional<ReportTable> table = family.report()) tables.push_back(*std::move(table));
+  }
+  return tables;
 }
 
 Particle Mixture::draw(RandomStream& random) const {

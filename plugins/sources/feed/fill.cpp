@@ -117,6 +117,8 @@ void Fill::emit(const BodyView& bodies, double, double, std::vector<NewBody>& ou
   }
 }
 
+std::vector<ReportTable> Fill::report() const { return mixture_->report(); }
+
 void Fill::save(StateWriter& out) const { out.write("done", std::uint64_t{done_}); }
 
 void Fill::load(const StateReader& in) { done_ = in.integer("done") != 0; }

@@ -21,6 +21,7 @@ class Fill final : public Source {
 
   void setup(SceneServices& services) override;
   void emit(const BodyView& bodies, double time, double dt, std::vector<NewBody>& out) override;
+  [[nodiscard]] std::vector<ReportTable> report() const override;
   void save(StateWriter& out) const override;
   void load(const StateReader& in) override;
 

@@ -16,21 +16,6 @@ namespace {
 /// Random hulls tried for a variant before the shape is refused.
 constexpr int kTries = 20;
 
-/// Moves spheres into the principal frame of the solid and scales it to the volume of a sphere of diameter 1.
-ParticleTemplate normalised(std::vector<Sphere> spheres, const MassProperties& solid) {
-  const double scale = 1.0 / equivalent_diameter(solid.volume);
-  const Pose principal{solid.centre, solid.orientation};
-  ParticleTemplate unit;
-  unit.bounding_radius = 0.0;
-  for (Sphere& sphere : spheres) {
-    sphere = {scale * transform_back(principal, sphere.centre), scale * sphere.radius};
-    unit.bounding_radius = std::max(unit.bounding_radius, norm(sphere.centre) + sphere.radius);
-  }
-  unit.spheres = std::move(spheres);
-  unit.unit_inertia = std::pow(scale, 5) * solid.inertia;
-  return unit;
-}
-
 /// The fewest spheres that come well within the limits, else as many as the scene allows.
 template <class Decompose>
 ParticleTemplate fit_cluster(const Options& shape, const MassProperties& solid, const Decompose& decompose) {
@@ -76,7 +61,7 @@ std::vector<Vec3> written_points(const Options& shape) {
 
 /// Random hulls, each drawn again until its cluster is good; after `kTries` the last one goes on to be refused.
 TemplateSet make_hulls(const Options& shape) {
-  if (shape.has("points")) return {{fit_hull(shape, written_points(shape))}, 0};
+  if (shape.has("points")) return {{fit_hull(shape, written_points(shape))}};
   TemplateSet set;
   RandomStream random{static_cast<std::uint64_t>(shape.integer("hull_seed")), "random hulls"};
   for (std::int64_t i = 0; i < shape.integer("variants"); ++i) {
@@ -101,7 +86,7 @@ ParticleTemplate make_shaving(const Options& shape) {
   return normalised(spheres, cluster_mass_properties(spheres));
 }
 
-ParticleTemplate make_sphere() { return {{{{}, 0.5}}, sphere_mass_properties(0.5).inertia, 0.5, 0.0, 0.0}; }
+ParticleTemplate make_sphere() { return {{{{}, 0.5}}, sphere_mass_properties(0.5).inertia, 0.5, 0.0, 0.0, {}}; }
 
 void check_errors(const ParticleTemplate& unit, const Options& shape, const std::string& family) {
   if (is_good(unit)) return;
@@ -116,6 +101,20 @@ void check_errors(const ParticleTemplate& unit, const Options& shape, const std:
 }
 
 }  // namespace
+
+ParticleTemplate normalised(std::vector<Sphere> spheres, const MassProperties& solid) {
+  const double scale = 1.0 / equivalent_diameter(solid.volume);
+  const Pose principal{solid.centre, solid.orientation};
+  ParticleTemplate unit;
+  unit.bounding_radius = 0.0;
+  for (Sphere& sphere : spheres) {
+    sphere = {scale * transform_back(principal, sphere.centre), scale * sphere.radius};
+    unit.bounding_radius = std::max(unit.bounding_radius, norm(sphere.centre) + sphere.radius);
+  }
+  unit.spheres = std::move(spheres);
+  unit.unit_inertia = std::pow(scale, 5) * solid.inertia;
+  return unit;
+}
 
 std::vector<Variant> particle_shapes() {
   const Parameter proportions = Parameter::vector("proportions", "1", "edge lengths or axes relative to each other")

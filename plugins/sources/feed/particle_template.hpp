@@ -21,6 +21,12 @@ inline constexpr double kHausdorffLimit = 0.10;  ///< Hausdorff distance over th
 /// A cluster this close gets no more spheres, since contacts cost in proportion to them [1].
 inline constexpr double kEnoughHausdorff = 0.08;
 
+/// What a measured particle brings with it.
+struct Measured {
+  double size = 0.0;     ///< diameter of the sphere of equal volume [m]; 0: not measured, the family's laws hold
+  double density = 0.0;  ///< [kg/m3]
+};
+
 /// A particle of size 1 m.
 struct ParticleTemplate {
   std::vector<Sphere> spheres;   ///< in the principal frame of the true solid [m]
@@ -28,15 +34,26 @@ struct ParticleTemplate {
   double bounding_radius = 0.5;  ///< of the spheres about the centre of mass [m]
   double volume_error = 0.0;     ///< of the cluster, relative [1]
   double hausdorff = 0.0;        ///< of the cluster, over the size: the diameter of the sphere of equal volume [1]
+                                 ///< (of scanned particles over the largest extent)
+  Measured measured = {};
 };
 
-/// The templates of a family: one, or several for random hulls.
+/// What became of the rows of a table of scanned particles.
+struct ScanRows {
+  std::size_t used = 0, refused = 0, of_other_materials = 0;
+};
+
+/// The templates of a family: one, or several for random hulls and scanned particles.
 struct TemplateSet {
   std::vector<ParticleTemplate> templates;
   int redrawn = 0;  ///< random hulls thrown away because their clusters missed the limits
+  ScanRows rows = {};
 };
 
-/// The alternatives of a family's `shape`.
+/// Moves spheres into the principal frame of the solid and scales it to the volume of a sphere of diameter 1.
+[[nodiscard]] ParticleTemplate normalised(std::vector<Sphere> spheres, const MassProperties& solid);
+
+/// The alternatives of a family's `shape`, but scanned particles (scan_family.hpp).
 [[nodiscard]] std::vector<Variant> particle_shapes();
 
 /// Makes the templates of a family. A random hull whose cluster misses the limits is drawn again.
