@@ -66,6 +66,7 @@ int run_command_line(int argc, char** argv) {
   add_compare_command(app, exit_code);
   add_solve_command(app, exit_code);
   add_plugins_command(app, exit_code);
+  add_decompose_command(app, exit_code);
   add_schema_command(app, exit_code);
   try {
     app.parse(argc, argv);
