@@ -70,8 +70,9 @@ void tell(const std::map<int, std::string>& bad, const Options& shape, const std
   if (bad.empty()) return;
   if (shape.text("bad_rows") == "refuse") {
     throw shape.error("file", "of family '" + family + "' has " + std::to_string(bad.size()) +
-                                  " bad rows; the first is " + place_of(shape, bad.begin()->first) + ": " +
-                                  bad.begin()->second + "; correct them, or set bad_rows = \"skip\"");
+                                  (bad.size() == 1 ? " bad row: " : " bad rows; the first is ") +
+                                  place_of(shape, bad.begin()->first) + ": " + bad.begin()->second +
+                                  "; correct them, or set bad_rows = \"skip\"");
   }
   std::size_t named = 0;
   for (const auto& [line, reason] : bad) {
