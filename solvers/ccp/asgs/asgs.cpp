@@ -14,8 +14,6 @@ namespace {
 
 /// Objectives closer than this share of their size are equal: they are sums of many terms of both signs.
 constexpr double kRounding = 1e-13;
-/// Conjugate steps that fail before Nesterov's take over.
-constexpr int kFailures = 2;
 
 double sum_of(const Lanes& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
@@ -39,6 +37,7 @@ Asgs::Asgs(const Options& options)
                        .restart = options.boolean("restart"),
                        .conjugate = options.boolean("conjugate"),
                        .relaxed = options.boolean("relaxed"),
+                       .single = options.boolean("single"),
                        .coloured = options.text("order") == "coloured",
                        .check_interval = static_cast<int>(options.integer("check_interval"))}} {}
 
@@ -51,6 +50,7 @@ std::vector<Parameter> Asgs::parameters() {
           .by_default(true),
       Parameter::boolean("relaxed", "end with updates of those contacts alone that still miss the tolerance")
           .by_default(true),
+      Parameter::boolean("single", "begin in single precision where a problem allows it").by_default(true),
       Parameter::choice("order", {"serial", "coloured"},
                         "order of the contacts in a sweep; coloured lets several threads work, with another result")
           .by_default("serial"),
@@ -63,13 +63,25 @@ std::vector<Parameter> Asgs::parameters() {
 bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma) {
   if (!project_guess(problem, gamma)) return false;
   delassus_.bind(problem, context.executor);
+  southwell_.bind(delassus_);
   w_.resize(problem.bodies());
+  objective_ = delassus_.objective(gamma);
   delassus_.body_velocities(gamma, w_);
+  x_.assign(gamma.begin(), gamma.end());
+  x_best_ = x_;
+  undone_ = 0;
+  failures_ = 0;
+  next_finish_ = 0;
+  return std::isfinite(objective_);
+}
+
+// Sweeps in double precision, which begin at x_, whose bodies have the velocities w_.
+void Asgs::prepare_sweeps(const CcpProblem& problem) {
   contacts_.bind(problem, {.coloured = options_.coloured});
-  contacts_.set_impulses(gamma);
+  contacts_.set_impulses(x_);
   contacts_.set_velocities(w_);
   blocks_.bind(problem, contacts_, {});
-  blocks_.set_impulses(gamma);
+  blocks_.set_impulses(x_);
   block_momentum_.start(blocks_);
   history_.assign(contacts_.groups(), History{});
   contacts_.with_layout([&](const auto& layout) {
@@ -77,23 +89,15 @@ bool Asgs::prepare(const CcpProblem& problem, const SolveContext& context, std::
   });
   old_.assign(contacts_.bodies().begin(), contacts_.bodies().end());
   sums_.assign(contacts_.chunks(), AsgsSums{});
-  x_.assign(gamma.begin(), gamma.end());
-  x_best_ = x_;
   prepare_inertias(problem);
-  undone_ = 0;
   against_ = 0.0;
   theta_ = 1.0, beta_ = 0.0;
-  objective_ = delassus_.objective(gamma);
   linear_ = objective_ - kinetic_energy() - block_momentum_.sums(blocks_).linear;
-  failures_ = 0;
-  next_finish_ = 0;
-  southwell_.bind(delassus_);
-  conjugate_ = options_.accelerated && options_.conjugate && problem.blocks.empty() && problem.compliance.empty();
+  conjugate_ = takes_conjugate_steps(problem) && failures_ < kFailures;
   if (conjugate_) {
     for (std::size_t k = 0; k < history_.size(); ++k) history_[k].y = history_[k].x_old;
     steps_.start(contacts_.bodies(), linear_);
   }
-  return std::isfinite(objective_);
 }
 
 void Asgs::prepare_inertias(const CcpProblem& problem) {
@@ -266,8 +270,22 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
   // Any sweep beats the guess, whose residual may be small by accident far away.
   SolveSummary summary{SolveStatus::iteration_limit, 0, std::numeric_limits<double>::infinity()};
   if (guess_residual <= context.tolerance) summary.residual = guess_residual;
+  if (summary.residual > context.tolerance) descend_single(context, summary);
+  // After pairs in single precision, one sweep more is not worth a beginning.
+  const bool done = summary.iterations > 0 && summary.iterations + 2 > context.max_iterations;
+  if (summary.residual > context.tolerance && !done) descend(context, summary);
+  std::copy(x_best_.begin(), x_best_.end(), gamma.begin());
+  if (std::isinf(summary.residual)) summary.residual = guess_residual;  // no sweep was made
+  if (!std::isfinite(summary.residual)) summary.status = SolveStatus::numerical_failure;
+  if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
+  return summary;
+}
+
+void Asgs::descend(const SolveContext& context, SolveSummary& summary) {
+  const CcpProblem& problem = delassus_.problem();
+  prepare_sweeps(problem);
   StallWatch watch{problem.r};
-  int next_look = 2;
+  int next_look = summary.iterations + 2;
   while (summary.residual > context.tolerance && summary.iterations < context.max_iterations) {
     const double before = objective_;
     const bool both = summary.iterations + 2 <= context.max_iterations;
@@ -295,11 +313,6 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
     }
     plan(uphill);
   }
-  std::copy(x_best_.begin(), x_best_.end(), gamma.begin());
-  if (std::isinf(summary.residual)) summary.residual = guess_residual;  // no sweep was made
-  if (!std::isfinite(summary.residual)) summary.status = SolveStatus::numerical_failure;
-  if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
-  return summary;
 }
 
 }  // namespace scree

@@ -35,6 +35,7 @@
 #include "scree/ccp/sweep/southwell.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
+#include "single_sweep.hpp"
 
 namespace scree {
 
@@ -44,6 +45,7 @@ struct AsgsOptions {
   bool restart = true;      ///< drop the momentum when it points against the step
   bool conjugate = true;    ///< begin with conjugate steps
   bool relaxed = true;      ///< end with updates of those contacts alone that still miss the tolerance
+  bool single = true;       ///< begin in single precision where the problem allows it
   bool coloured = false;    ///< order by colours, for several threads
   int check_interval = 10;  ///< sweeps between two computations of the residual
 };
@@ -62,11 +64,14 @@ class Asgs final : public CcpSolver {
   [[nodiscard]] int undone() const { return undone_; }
 
  private:
+  static constexpr int kFailures = 2;  ///< of conjugate steps before Nesterov's take over
+
   /// Of the contacts of one group [N s]. With conjugate steps x_old is the y before.
   struct History {
     Lanes3 x_old, y;
   };
   bool prepare(const CcpProblem& problem, const SolveContext& context, std::span<double> gamma);
+  void prepare_sweeps(const CcpProblem& problem);
   void prepare_inertias(const CcpProblem& problem);
   void extrapolate();
   template <class Start>
@@ -82,6 +87,14 @@ class Asgs final : public CcpSolver {
   double residual(std::span<double> gamma);
   void refresh();
   void look(SolveSummary& summary);
+  [[nodiscard]] bool takes_conjugate_steps(const CcpProblem& problem) const;
+  [[nodiscard]] double single_goal(double tolerance) const;
+  [[nodiscard]] double objective_of_x() const;
+  void descend_single(const SolveContext& context, SolveSummary& summary);
+  void meet_x();
+  double look_single();
+  void look_single(SolveSummary& summary, double start);
+  void descend(const SolveContext& context, SolveSummary& summary);
   int look_distance(const SolveSummary& summary, double tolerance) const;
   bool may_finish(const SolveContext& context, const SolveSummary& summary) const;
   void finish(const SolveContext& context, SolveSummary& summary);
@@ -99,6 +112,7 @@ class Asgs final : public CcpSolver {
   std::vector<double> x_, x_best_;  ///< impulses [N s]
   std::vector<Twist> w_;
   ConjugateSteps steps_;
+  SingleSweep single_;
   Southwell southwell_;
   int next_finish_ = 0;              ///< iteration from which southwell_ may try again
   bool conjugate_ = false;           ///< steps_ decides where the next pair starts, else beta_

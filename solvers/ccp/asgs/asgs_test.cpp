@@ -10,6 +10,7 @@ INSTANTIATE_TEST_SUITE_P(
     asgs, CcpSolverConformance,
     testing::Values(SolverCase{"coloured", [] { return std::make_unique<Asgs>(AsgsOptions{.coloured = true}); }},
                     SolverCase{"momentum_only", [] { return std::make_unique<Asgs>(AsgsOptions{.conjugate = false}); }},
+                    SolverCase{"double_only", [] { return std::make_unique<Asgs>(AsgsOptions{.single = false}); }},
                     SolverCase{"sweeps_only", [] { return std::make_unique<Asgs>(AsgsOptions{.relaxed = false}); }},
                     SolverCase{"plain", [] { return std::make_unique<Asgs>(AsgsOptions{.accelerated = false}); }}),
     solver_case_name);
@@ -44,7 +45,8 @@ TEST(asgs, conjugate_steps_end_after_as_many_pairs_as_there_are_eigenvalues) {
                   {k == 0 ? -1.0 : 0.0, 0, 0});
     below = sphere;
   }
-  Asgs conjugate{AsgsOptions{.check_interval = 2}}, momentum{AsgsOptions{.conjugate = false, .check_interval = 2}};
+  Asgs conjugate{AsgsOptions{.single = false, .check_interval = 2}},
+      momentum{AsgsOptions{.conjugate = false, .check_interval = 2}};
   const Solved c = solve(conjugate, t.view(), 1e-12), m = solve(momentum, t.view(), 1e-12);
   EXPECT_EQ(c.summary.status, SolveStatus::converged);
   EXPECT_LE(c.summary.iterations, 2 * (kLength + 2));
@@ -86,7 +88,7 @@ TestingProblem columns() {
 // that 600 passes over it, enough for any factor of 1e6 with a spectral radius of cos^2(pi / 21), cost three over all.
 TEST(asgs, a_few_contacts_do_not_make_all_others_wait) {
   const TestingProblem t = columns();
-  Asgs alone{AsgsOptions{}}, together{AsgsOptions{.relaxed = false}};
+  Asgs alone{AsgsOptions{.single = false}}, together{AsgsOptions{.relaxed = false, .single = false}};
   const Solved a = solve(alone, t.view(), 1e-6), b = solve(together, t.view(), 1e-6);
   EXPECT_EQ(a.summary.status, SolveStatus::converged);
   EXPECT_LE(ccp_residual(t.view(), a.gamma), 1e-6);

@@ -33,6 +33,20 @@ sweep::Body difference(const sweep::Body& p, const sweep::Body& q) {
 
 }  // namespace
 
+bool PlaneStep::choose(const Products& products, double linear_z, double linear_y, double linear_old) {
+  const auto [dd, dp, pp, yd, yp, zz] = products;
+  const double along_d = yd + linear_z - linear_y, along_p = yp + linear_y - linear_old;
+  const double determinant = dd * pp - dp * dp;
+  if (determinant > kParallel * dd * pp) {
+    a = (along_p * dp - along_d * pp) / determinant;
+    b = (along_d * dp - along_p * dd) / determinant;
+  } else {
+    a = dd > 0.0 ? -along_d / dd : 0.0;
+    b = 0.0;
+  }
+  return a >= 1.0 && std::isfinite(a) && std::isfinite(b);
+}
+
 void ConjugateSteps::start(std::span<const sweep::Body> bodies, double linear) {
   y_.assign(bodies.begin(), bodies.end());
   old_ = y_;
@@ -67,17 +81,7 @@ double ConjugateSteps::measure(std::span<const sweep::Body> bodies, std::span<co
 
 bool ConjugateSteps::choose(double linear) {
   linear_z_ = linear;
-  const auto [dd, dp, pp, yd, yp, zz] = products_;
-  const double along_d = yd + linear_z_ - linear_y_, along_p = yp + linear_y_ - linear_old_;
-  const double determinant = dd * pp - dp * dp;
-  if (determinant > kParallel * dd * pp) {
-    a_ = (along_p * dp - along_d * pp) / determinant;
-    b_ = (along_d * dp - along_p * dd) / determinant;
-  } else {
-    a_ = dd > 0.0 ? -along_d / dd : 0.0;
-    b_ = 0.0;
-  }
-  return a_ >= 1.0 && std::isfinite(a_) && std::isfinite(b_);
+  return step_.choose(products_, linear_z_, linear_y_, linear_old_);
 }
 
 void ConjugateSteps::go(std::span<sweep::Body> bodies, const DelassusOperator& delassus) {
@@ -85,12 +89,12 @@ void ConjugateSteps::go(std::span<sweep::Body> bodies, const DelassusOperator& d
     for (std::size_t k = first; k < last; ++k) {
       // Lanes 3 are constants of the body: their differences are zero.
       const sweep::Body y = y_[k], d = difference(bodies[k], y), p = difference(y, old_[k]);
-      bodies[k] = {y.linear + a_ * d.linear + b_ * p.linear, y.angular + a_ * d.angular + b_ * p.angular};
+      bodies[k] = {y.linear + a() * d.linear + b() * p.linear, y.angular + a() * d.angular + b() * p.angular};
       old_[k] = y;
       y_[k] = bodies[k];
     }
   });
-  const double next = linear_y_ + a_ * (linear_z_ - linear_y_) + b_ * (linear_y_ - linear_old_);
+  const double next = linear_y_ + a() * (linear_z_ - linear_y_) + b() * (linear_y_ - linear_old_);
   linear_old_ = linear_y_;
   linear_y_ = next;
 }

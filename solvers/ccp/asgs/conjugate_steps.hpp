@@ -21,16 +21,25 @@
 
 namespace scree {
 
+/// Where on the plane the objective is least, by the products below and r^T z, r^T y and r^T y_old [J].
+struct PlaneStep {
+  double a = 1.0, b = 0.0;
+  /// (d, d), (d, p), (p, p), (y, d), (y, p), (z, z) of d = z - y, p = y - y_old, in the norm of the masses [J].
+  using Products = std::array<double, 6>;
+  /// False where that is no step worth making.
+  bool choose(const Products& products, double linear_z, double linear_y, double linear_old);
+};
+
 /// For contacts without compliance. Keeps its memory between solves.
 class ConjugateSteps {
  public:
   /// y = z: `bodies` have its velocities, `linear` is r^T y [J].
   void start(std::span<const sweep::Body> bodies, double linear);
 
-  [[nodiscard]] double a() const { return a_; }
-  [[nodiscard]] double b() const { return b_; }
+  [[nodiscard]] double a() const { return step_.a; }
+  [[nodiscard]] double b() const { return step_.b; }
   /// The next pair starts from z.
-  void plain() { a_ = 1.0, b_ = 0.0; }
+  void plain() { step_ = {}; }
   /// Takes in z: `bodies` have its velocities; `inertia` one a body [kg m2], or empty where all are isotropic. Returns
   /// 1/2 w^T M w of them [J].
   double measure(std::span<const sweep::Body> bodies, std::span<const Mat3> inertia, const DelassusOperator& delassus);
@@ -42,14 +51,13 @@ class ConjugateSteps {
   void correct(std::size_t k, const Lanes& linear, const Lanes& angular);
 
  private:
-  /// (d, d), (d, p), (p, p), (y, d), (y, p), (z, z) of d = z - y, p = y - y_old, in the norm of the masses [J].
-  using Products = std::array<double, 6>;
+  using Products = PlaneStep::Products;
 
   std::vector<sweep::Body> y_, old_;
   std::vector<Products> partial_;
   Products products_{};
   double linear_z_ = 0.0, linear_y_ = 0.0, linear_old_ = 0.0;
-  double a_ = 1.0, b_ = 0.0;
+  PlaneStep step_;
 };
 
 }  // namespace scree

@@ -3,13 +3,15 @@
 namespace scree::sweep {
 
 namespace {
-constexpr std::size_t kQueue = 48;
+template <std::size_t lanes>
+constexpr std::size_t kQueue = 12 * lanes;
 }
 
-void Grouping::build(const CcpProblem& problem, const Sequence& sequence) {
+template <std::size_t lanes>
+void GroupingOf<lanes>::build(const CcpProblem& problem, const Sequence& sequence) {
   groups.clear();
   first.clear();
-  std::array<std::uint32_t, kQueue> queue{};
+  std::array<std::uint32_t, kQueue<lanes>> queue{};
   const auto share = [&](std::uint32_t i, std::uint32_t j) {
     const CcpContact &x = problem.contacts[i], &y = problem.contacts[j];
     const auto meets = [&](std::uint32_t k) { return (k == y.a || k == y.b) && problem.inverse_mass[k] > 0.0; };
@@ -20,9 +22,10 @@ void Grouping::build(const CcpProblem& problem, const Sequence& sequence) {
     const std::size_t end = sequence.first()[chunk + 1];
     std::size_t next = sequence.first()[chunk], waiting = 0;
     while (next < end || waiting > 0) {
-      while (waiting < kQueue && next < end) queue[waiting++] = sequence.contacts()[next++];
+      while (waiting < kQueue<lanes> && next < end) queue[waiting++] = sequence.contacts()[next++];
       // One walk through the queue: what fits goes into the group, the rest moves up.
-      std::array<std::uint32_t, 4> group{kNoContact, kNoContact, kNoContact, kNoContact};
+      std::array<std::uint32_t, lanes> group;
+      group.fill(kNoContact);
       std::size_t members = 0, kept = 0;
       for (std::size_t k = 0; k < waiting; ++k) {
         bool fits = members < group.size();
@@ -39,5 +42,8 @@ void Grouping::build(const CcpProblem& problem, const Sequence& sequence) {
   }
   first.push_back(static_cast<std::uint32_t>(groups.size()));
 }
+
+template struct GroupingOf<4>;
+template struct GroupingOf<8>;
 
 }  // namespace scree::sweep

@@ -1,4 +1,4 @@
-// Puts contacts into groups of four that share no movable body.
+// Puts contacts into groups, one contact a vector lane, that share no movable body.
 #pragma once
 
 #include <array>
@@ -13,14 +13,17 @@ namespace scree::sweep {
 
 inline constexpr std::uint32_t kNoContact = std::numeric_limits<std::uint32_t>::max();
 
-/// The contacts of each group, in the order of a sweep.
-struct Grouping {
-  std::vector<std::array<std::uint32_t, 4>> groups;  ///< kNoContact: an empty lane
-  std::vector<std::uint32_t> first;                  ///< first group of each chunk, and the end
+/// The contacts of each group, in the order of a sweep; for 4 and 8 lanes.
+template <std::size_t lanes>
+struct GroupingOf {
+  std::vector<std::array<std::uint32_t, lanes>> groups;  ///< kNoContact: an empty lane
+  std::vector<std::uint32_t> first;                      ///< first group of each chunk, and the end
 
   /// Groups never reach across chunks. Contacts are taken in order as far as they
   /// fit, from a short queue, so that memory is still walked through in order.
   void build(const CcpProblem& problem, const Sequence& sequence);
 };
+
+using Grouping = GroupingOf<4>;
 
 }  // namespace scree::sweep

@@ -1,0 +1,64 @@
+// SingleSweep: conjugate steps in single precision, with which a solve may begin.
+//
+// Sweeps are bound by what they read: numbers of half the length go in half the time, eight contacts side by side. Rounding shows
+// at 1e-7 of the velocities; what is asked for is mostly far above. The answer is looked at, and judged, in double precision, and what
+// is not done then is done by double sweeps.
+//
+// Contacts only, without compliance, between bodies whose inverse inertia is a multiple of the identity; in the order of the
+// contacts, on the calling thread. The terms are those of conjugate_steps.hpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "conjugate_steps.hpp"
+#include "scree/ccp/sweep/grouping.hpp"
+#include "single_lanes.hpp"
+
+namespace scree {
+
+/// Keeps its memory between problems: 130 bytes a contact, 96 a body.
+class SingleSweep {
+ public:
+  /// Impulses and velocities are right to this share of the largest ones [1].
+  static constexpr double kRounding = 1e-5;
+
+  [[nodiscard]] static bool takes(const CcpProblem& problem);
+  /// Starts from the impulses `gamma` [N s], whose bodies have the velocities `w`.
+  void start(const CcpProblem& problem, std::span<const double> gamma, std::span<const Twist> w);
+
+  /// A pair of sweeps from y to z. Returns the objective of z [J]. Updates of the second that a velocity above `speed` [m/s] asked for
+  /// are counted.
+  double advance(double speed);
+  /// Share of the contacts so counted: of those that miss that residual, nearly [1].
+  [[nodiscard]] double missing() const { return missing_; }
+  /// Chooses where the next pair starts: at z, where this is false.
+  bool choose();
+  /// Impulses of z, of the whole problem.
+  void impulses(std::span<double> gamma) const;
+  /// Gives z the velocities `w`, without what rounding added, and those before the same correction.
+  void correct(std::span<const Twist> w);
+
+ private:
+  struct History {
+    single::Lanes3 y, old;
+  };
+  void fill(const CcpProblem& problem);
+  void put(const CcpProblem& problem, std::size_t at, std::size_t lane, std::uint32_t i);
+  void go();
+  void measure();
+
+  sweep::Sequence sequence_;
+  sweep::GroupingOf<8> grouping_;
+  std::size_t bodies_count_ = 0;
+  std::vector<single::Group> groups_;
+  std::vector<History> history_;
+  std::vector<single::Body> bodies_, y_, old_;  ///< those of the problem, and one that stands for nothing
+  PlaneStep step_;
+  PlaneStep::Products products_{};
+  double missing_ = 1.0;
+  std::size_t contacts_ = 0;
+  double linear_z_ = 0.0, linear_y_ = 0.0, linear_old_ = 0.0;
+};
+
+}  // namespace scree
