@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 #include "scree/ccp/guess.hpp"
 #include "scree/ccp/judge.hpp"
@@ -283,6 +284,7 @@ SolveSummary Asgs::solve(const CcpProblem& problem, const SolveContext& context,
 
 void Asgs::descend(const SolveContext& context, SolveSummary& summary) {
   const CcpProblem& problem = delassus_.problem();
+  if (problem.contacts.size() >= kManyRecords) single_ = {};  // its memory is that of a third of the sweeps to come
   prepare_sweeps(problem);
   StallWatch watch{problem.r};
   int next_look = summary.iterations + 2;
