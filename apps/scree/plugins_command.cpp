@@ -58,19 +58,24 @@ std::string supported_pairs(const PluginEntry& entry) {
   const auto* phase = dynamic_cast<const NarrowPhase*>(plugin.get());
   if (phase == nullptr) return {};
   std::string text = "\n  Supported pairs:\n";
-  for (std::size_t a = 0; a < kShapeKindCount; ++a) {
+  const auto add_line = [&](const char* name, const auto& meets) {
     std::string others;
     std::size_t count = 0;
     for (std::size_t b = 0; b < kShapeKindCount; ++b) {
       const auto kind = static_cast<ShapeKind>(b);
-      if (!phase->supports(static_cast<ShapeKind>(a), kind)) continue;
+      if (!meets(kind)) continue;
       others += (others.empty() ? "" : ", ") + std::string{to_string(kind)};
       ++count;
     }
     if (count == 0) others = "-";
     if (count == kShapeKindCount) others = "all kinds";
-    text += fmt::format("    {:<15} {}\n", to_string(static_cast<ShapeKind>(a)), others);
+    text += fmt::format("    {:<15} {}\n", name, others);
+  };
+  for (std::size_t a = 0; a < kShapeKindCount; ++a) {
+    const auto kind = static_cast<ShapeKind>(a);
+    add_line(to_string(kind), [&](ShapeKind other) { return phase->supports(kind, other); });
   }
+  add_line("hollow cylinder", [&](ShapeKind inside) { return phase->supports_hollow(inside); });
   return text;
 }
 

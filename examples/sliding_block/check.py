@@ -21,7 +21,11 @@ with Check(__file__) as check:
     check.near("the relaxed contact floats at mu h v", floats["z"][-1] - 0.01, mu * STEP * floats["vx"][-1],
                0.02 * mu * STEP * expected)
 
-    for factor, sticks in ((1.02, True), (0.98, False)):
-        moved = check.run(f"mu_{factor}", material__wood__friction=factor * tan(ANGLE)).table("track.csv")["vx"][-1]
-        slides = G * (sin(ANGLE) - factor * tan(ANGLE) * cos(ANGLE)) * END
-        check.near(f"with mu = {factor} tan a it {'sticks' if sticks else 'slides'}", moved, 0.0 if sticks else slides, 1e-5)
+    for floor in ("incline", "slab"):
+        for factor, sticks in ((1.02, True), (0.98, False)):
+            moved = check.run(f"{floor}_mu_{factor}", body__incline__shape=floor,
+                              material__wood__friction=factor * tan(ANGLE)).table("track.csv")
+            slides = G * (sin(ANGLE) - factor * tan(ANGLE) * cos(ANGLE)) * END
+            check.near(f"with mu = {factor} tan a it {'sticks' if sticks else 'slides'} on the {floor}", moved["vx"][-1],
+                       0.0 if sticks else slides, 1e-5)
+            check.near("   without rocking", max(map(abs, moved["wy"])), 0.0, 1e-6)

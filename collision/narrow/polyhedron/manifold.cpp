@@ -143,10 +143,16 @@ void add_deepest(const PlacedPair& pair, const Reference& reference, bool of_a, 
   maker.add_over(reference, of_a, deepest, reference.separation, feature_of_corner(of_a ? 1 : 0, reference.deepest));
 }
 
+/// Whether a second corner is nearly as high along n as the highest one.
+bool may_have_level_edge(const Polytope& solid, const Vec3& n) {
+  const double top = dot(n, solid.corner(farthest(solid, n)));
+  return several_above(solid, n, top - 2.0 * kParallelEdges * solid.size);
+}
+
 /// The edge whose lower end along n is the highest; kNoFace for none.
-std::uint32_t highest_edge(const Polytope& solid, const Vec3& n, double& height) {
+std::uint32_t highest_edge(const Polytope& solid, const Vec3& n) {
   std::uint32_t best = kNoFace;
-  height = -std::numeric_limits<double>::infinity();
+  double height = -std::numeric_limits<double>::infinity();
   for (std::uint32_t e = 0; e < solid.edges.size(); ++e) {
     const double lower = std::min(dot(n, solid.corner(solid.edges[e].from)), dot(n, solid.corner(solid.edges[e].to)));
     if (lower <= height) continue;
@@ -158,9 +164,10 @@ std::uint32_t highest_edge(const Polytope& solid, const Vec3& n, double& height)
 
 /// The two ends of what two parallel edges share, where the solids meet along a line.
 void line_points(const PlacedPair& pair, const Meeting& meeting, Maker& maker) {
-  double height_a = 0.0, height_b = 0.0;
-  const std::uint32_t i = highest_edge(pair.a, meeting.normal, height_a);
-  const std::uint32_t j = highest_edge(pair.b, -(pair.turn_back * meeting.normal), height_b);
+  const Vec3 along_b = -(pair.turn_back * meeting.normal);
+  if (!may_have_level_edge(pair.a, meeting.normal) || !may_have_level_edge(pair.b, along_b)) return;
+  const std::uint32_t i = highest_edge(pair.a, meeting.normal);
+  const std::uint32_t j = highest_edge(pair.b, along_b);
   if (i == kNoFace || j == kNoFace) return;
   const Vec3 p = pair.a.corner(pair.a.edges[i].from), q = pair.corner_b(pair.b.edges[j].from);
   const Vec3 u = pair.a.corner(pair.a.edges[i].to) - p, v = pair.corner_b(pair.b.edges[j].to) - q;

@@ -12,9 +12,9 @@
 
 namespace scree::polyhedron {
 
-/// One contact point on a mesh.
+/// One contact point on a mesh or a wall.
 struct MeshPoint {
-  Vec3 at;                    ///< midway between the surfaces [m], mesh frame
+  Vec3 at;                    ///< midway between the surfaces [m], frame of the mesh
   Vec3 normal;                ///< unit, from the mesh to the solid [1]
   double gap = 0.0;           ///< [m]
   std::uint64_t feature = 0;  ///< triangle << 32 | part

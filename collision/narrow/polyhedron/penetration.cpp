@@ -32,8 +32,8 @@ class Search {
 
  private:
   static void measure(const Polytope& solid, const Vec3& p, std::vector<double>& depth) {
-    depth.clear();
-    for (const Face& face : solid.faces) depth.push_back(face.offset - dot(face.normal, p));
+    depth.resize(solid.faces.size());
+    for (std::size_t f = 0; f < depth.size(); ++f) depth[f] = solid.faces[f].offset - dot(solid.faces[f].normal, p);
   }
   static std::uint32_t shallowest(const std::vector<double>& depth) {
     return static_cast<std::uint32_t>(std::min_element(depth.begin(), depth.end()) - depth.begin());

@@ -1,5 +1,6 @@
 #include "polyhedron.hpp"
 
+#include "drum.hpp"
 #include "gjk.hpp"
 #include "manifold.hpp"
 #include "mesh_contacts.hpp"
@@ -10,6 +11,9 @@
 namespace scree {
 namespace polyhedron {
 namespace {
+
+/// Pairs ahead of the present one whose second solid is fetched into the cache.
+constexpr std::size_t kAhead = 4;
 
 /// Buffers of one collide() call.
 struct Scratch {
@@ -80,7 +84,10 @@ bool Polyhedron::supports(ShapeKind a, ShapeKind b) const {
   return (is_polytope(a) && b == ShapeKind::triangle_mesh) || (a == ShapeKind::triangle_mesh && is_polytope(b));
 }
 
+bool Polyhedron::supports_hollow(ShapeKind inside) const { return polyhedron::is_polytope(inside); }
+
 void Polyhedron::bind(const ShapeSet& shapes, std::size_t first_new_primitive) {
+  shapes_ = &shapes;
   polytopes_.add(shapes, first_new_primitive);
   const auto primitives = shapes.primitives();
   for (std::size_t i = mesh_of_.size(); i < primitives.size(); ++i) {
@@ -94,20 +101,31 @@ void Polyhedron::bind(const ShapeSet& shapes, std::size_t first_new_primitive) {
 void Polyhedron::collide(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) const {
   using namespace polyhedron;
   Scratch scratch;
-  for (const ColliderPair& pair : pairs) {
-    const bool mesh_a = colliders.kind[pair.a] == ShapeKind::triangle_mesh;
-    if (mesh_a || colliders.kind[pair.b] == ShapeKind::triangle_mesh) {
-      const ColliderIndex mesh = mesh_a ? pair.a : pair.b, solid = mesh_a ? pair.b : pair.a;
-      mesh_contacts(meshes_[mesh_of_[colliders.primitive[mesh]]], colliders.pose[mesh],
-                    polytopes_[colliders.primitive[solid]], colliders.pose[solid], pair.reach, scratch.mesh);
-      Writer write{colliders, pair, !mesh_a, out};
-      for (const MeshPoint& p : scratch.mesh.points) write.add(p.at, p.normal, p.gap, p.feature);
-    } else {
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (k + kAhead < pairs.size()) polytopes_.fetch(colliders.primitive[pairs[k + kAhead].b]);
+    const ColliderPair& pair = pairs[k];
+    const bool a_is_polytope = is_polytope(colliders.kind[pair.a]);
+    if (a_is_polytope && is_polytope(colliders.kind[pair.b])) {
       collide_polytopes(polytopes_[colliders.primitive[pair.a]], colliders.pose[pair.a],
                         polytopes_[colliders.primitive[pair.b]], colliders.pose[pair.b], pair.reach, scratch);
       Writer write{colliders, pair, false, out};
       for (const ManifoldPoint& p : scratch.manifold.points) write.add(p.at, scratch.manifold.normal, p.gap, p.feature);
+      continue;
     }
+    const ColliderIndex surface = a_is_polytope ? pair.b : pair.a, solid = a_is_polytope ? pair.a : pair.b;
+    const Polytope polytope = polytopes_[colliders.primitive[solid]];
+    const std::uint32_t primitive = colliders.primitive[surface];
+    if (colliders.kind[surface] == ShapeKind::triangle_mesh) {
+      mesh_contacts(meshes_[mesh_of_[primitive]], colliders.pose[surface], polytope, colliders.pose[solid], pair.reach,
+                    scratch.mesh);
+    } else {
+      const Vec3& size = shapes_->primitives()[primitive].size;
+      scratch.mesh.points.clear();
+      drum_contacts(size.x, size.y, polytope, inverse(colliders.pose[surface]) * colliders.pose[solid], pair.reach,
+                    scratch.mesh.points);
+    }
+    Writer write{colliders, pair, a_is_polytope, out};
+    for (const MeshPoint& p : scratch.mesh.points) write.add(p.at, p.normal, p.gap, p.feature);
   }
 }
 
@@ -117,9 +135,9 @@ namespace {
 
 void list(scree::PluginList& plugins) {
   plugins
-      .add<scree::NarrowPhase, scree::Polyhedron>(
-          "polyhedron",
-          "Several points between boxes, convex hulls, capsules and triangle meshes, by separating axes and clipping.")
+      .add<scree::NarrowPhase, scree::Polyhedron>("polyhedron",
+                                                  "Several points between boxes, hulls, capsules and meshes, and "
+                                                  "inside drums, by separating axes and clipping.")
       .default_place = 2;
 }
 

@@ -10,15 +10,17 @@
 
 namespace scree {
 
-/// Contacts of boxes, convex hulls and capsules with each other and with triangle meshes. Features name corners and pairs of
+/// Contacts of boxes, convex hulls and capsules with each other, with triangle meshes and inside hollow cylinders. Features name corners and pairs of
 /// edges, on meshes within a triangle.
 class Polyhedron : public NarrowPhase {
  public:
   [[nodiscard]] bool supports(ShapeKind a, ShapeKind b) const override;
+  [[nodiscard]] bool supports_hollow(ShapeKind inside) const override;
   void bind(const ShapeSet& shapes, std::size_t first_new_primitive) override;
   void collide(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) const override;
 
  private:
+  const ShapeSet* shapes_ = nullptr;
   polyhedron::PolytopeSet polytopes_;
   std::vector<polyhedron::MeshSurface> meshes_;
   std::vector<std::uint32_t> mesh_of_;  // by primitive

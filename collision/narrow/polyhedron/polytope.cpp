@@ -100,6 +100,16 @@ std::uint32_t farthest(const Polytope& solid, const Vec3& direction) {
   return static_cast<std::uint32_t>(std::min(first, std::int64_t{solid.corner_count - 1}));
 }
 
+bool several_above(const Polytope& solid, const Vec3& direction, double height) {
+  const Lanes x = Lanes{} + direction.x, y = Lanes{} + direction.y, z = Lanes{} + direction.z;
+  Places above{};
+  for (std::uint32_t g = 0; g < solid.corner_count; g += kLane) {
+    const double* at = solid.lanes + std::size_t{g} * 3;
+    above -= load(at) * x + load(at + kLane) * y + load(at + 2 * kLane) * z > height;
+  }
+  return above[0] + above[1] + above[2] + above[3] > 1;
+}
+
 void append_lanes(std::span<const Vec3> corners, std::vector<double>& lanes) {
   for (std::size_t g = 0; g < corners.size(); g += kLane) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -4,6 +4,7 @@
 // faces back to back. The swept sphere (`radius`) is left out of all distances until contacts are written.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -52,6 +53,9 @@ struct Polytope {
 /// The first corner that is farthest along `direction`.
 [[nodiscard]] std::uint32_t farthest(const Polytope& solid, const Vec3& direction);
 
+/// True when more than one corner may rise above `height` [m] along `direction`; never false when it is so.
+[[nodiscard]] bool several_above(const Polytope& solid, const Vec3& direction, double height);
+
 /// Appends corners [m] in the layout of Polytope::lanes.
 void append_lanes(std::span<const Vec3> corners, std::vector<double>& lanes);
 
@@ -62,8 +66,17 @@ class PolytopeSet {
   void add(const ShapeSet& shapes, std::size_t first_new);
   /// The polytope of a primitive of one of these kinds. Ends with the next add().
   [[nodiscard]] Polytope operator[](std::uint32_t primitive) const;
+  /// Fetches the corners of a primitive into the cache.
+  void fetch(std::uint32_t primitive) const {
+    const Record& r = records_[primitive];
+    const double* const at = lanes_.data() + r.lane;
+    const std::uint32_t doubles = std::min(3 * r.corner_count, kMostFetched);
+    for (std::uint32_t i = 0; i < doubles; i += kCacheLine) __builtin_prefetch(at + i);
+  }
 
  private:
+  static constexpr std::uint32_t kCacheLine = 8;     // doubles
+  static constexpr std::uint32_t kMostFetched = 64;  // doubles
   struct Record {
     std::uint32_t lane = 0, corner_count = 0;
     std::uint32_t face = 0, face_count = 0, first_side = 0;

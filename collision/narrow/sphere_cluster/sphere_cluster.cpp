@@ -153,6 +153,10 @@ bool SphereCluster::supports(ShapeKind a, ShapeKind b) const {
   return (a == ShapeKind::plane) != (b == ShapeKind::plane);
 }
 
+bool SphereCluster::supports_hollow(ShapeKind inside) const {
+  return sphere_cluster::is_round(inside) || inside == ShapeKind::plane;
+}
+
 void SphereCluster::bind(const ShapeSet& shapes, std::size_t first_new_primitive) {
   set_.add(shapes, first_new_primitive);
 }

@@ -15,9 +15,26 @@ constexpr std::size_t kPairsPerChunk = 1024;
 
 std::size_t index(ShapeKind kind) { return static_cast<std::size_t>(kind); }
 
-Error unsupported(ShapeKind a, ShapeKind b) {
-  return Error{ErrorKind::usage, std::string{"no narrow phase of the scene computes contacts of "} + to_string(a) +
-                                     " against " + to_string(b) +
+/// Narrow phases tell one more kind apart than there are: a hollow cylinder is not a cylinder.
+constexpr std::size_t kHollow = kShapeKindCount;
+constexpr std::size_t kKinds = kShapeKindCount + 1;
+
+std::size_t index(const Primitive& primitive) { return primitive.hollow ? kHollow : index(primitive.kind); }
+
+const char* name_of(std::size_t kind) {
+  return kind == kHollow ? "hollow cylinder" : to_string(static_cast<ShapeKind>(kind));
+}
+
+bool supports(const NarrowPhase& phase, std::size_t a, std::size_t b) {
+  if (a == kHollow && b == kHollow) return false;
+  if (a == kHollow) return phase.supports_hollow(static_cast<ShapeKind>(b));
+  if (b == kHollow) return phase.supports_hollow(static_cast<ShapeKind>(a));
+  return phase.supports(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
+}
+
+Error unsupported(std::size_t a, std::size_t b) {
+  return Error{ErrorKind::usage, std::string{"no narrow phase of the scene computes contacts of "} + name_of(a) +
+                                     " against " + name_of(b) +
                                      "; add one that does to its list of narrow phases, or give one of them "
                                      "collides = false."};
 }
@@ -52,11 +69,10 @@ bool can_differ(const Holders& a, const Holders& b) {
 CollisionPipeline::CollisionPipeline(const ShapeSet& shapes, BroadPhase& broad, std::vector<NarrowPhase*> chain,
                                      const Executor& executor, const CollisionSettings& settings)
     : shapes_{shapes}, broad_{broad}, chain_{std::move(chain)}, executor_{executor}, settings_{settings} {
-  for (std::size_t a = 0; a < kShapeKindCount; ++a) {
-    for (std::size_t b = 0; b < kShapeKindCount; ++b) {
-      const auto first = std::find_if(chain_.begin(), chain_.end(), [&](const NarrowPhase* phase) {
-        return phase->supports(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
-      });
+  for (std::size_t a = 0; a < kKinds; ++a) {
+    for (std::size_t b = 0; b < kKinds; ++b) {
+      const auto first =
+          std::find_if(chain_.begin(), chain_.end(), [&](const NarrowPhase* phase) { return supports(*phase, a, b); });
       phase_[a][b] = first == chain_.end() ? -1 : static_cast<int>(first - chain_.begin());
     }
   }
@@ -72,14 +88,14 @@ void CollisionPipeline::bind_new_shapes() {
 void CollisionPipeline::check_support(const BodyView& bodies) const {
   // By kind and by group; without groups all bodies are in the first one.
   using ByGroup = std::array<Holders, CollisionFilter::kMostGroups>;
-  std::array<ByGroup, kShapeKindCount> present{};
-  std::array<ByGroup, kShapeKindCount> moving{};
+  std::array<ByGroup, kKinds> present{};
+  std::array<ByGroup, kKinds> moving{};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (const Primitive& primitive : shapes_.primitives(shapes_.shapes()[bodies.shape[i]])) {
       if (!primitive.collides) continue;
       const CollisionGroup group = bodies.collision_group.empty() ? CollisionGroup{0} : bodies.collision_group[i];
-      present[index(primitive.kind)][group].add(i);
-      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive.kind)][group].add(i);
+      present[index(primitive)][group].add(i);
+      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive)][group].add(i);
     }
   }
   const auto can_meet = [&](std::size_t a, std::size_t b) {
@@ -90,13 +106,11 @@ void CollisionPipeline::check_support(const BodyView& bodies) const {
     }
     return false;
   };
-  for (std::size_t a = 0; a < kShapeKindCount; ++a) {
-    for (std::size_t b = 0; b < kShapeKindCount; ++b) {
+  for (std::size_t a = 0; a < kKinds; ++a) {
+    for (std::size_t b = 0; b < kKinds; ++b) {
       // Planes never meet planes: both are half spaces without an edge.
       const bool planes = a == index(ShapeKind::plane) && b == index(ShapeKind::plane);
-      if (phase_[a][b] < 0 && !planes && can_meet(a, b)) {
-        throw unsupported(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
-      }
+      if (phase_[a][b] < 0 && !planes && can_meet(a, b)) throw unsupported(a, b);
     }
   }
 }
@@ -186,13 +200,14 @@ void CollisionPipeline::find_pairs(std::size_t body_count) {
 
 void CollisionPipeline::collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const {
   const ColliderView view = colliders_.view();
-  const auto phase_of = [&](const ColliderPair& pair) {
-    return phase_[index(view.kind[pair.a])][index(view.kind[pair.b])];
+  const auto kind_of = [&](ColliderIndex i) {
+    return view.kind[i] == ShapeKind::cylinder ? index(shapes_.primitives()[view.primitive[i]]) : index(view.kind[i]);
   };
+  const auto phase_of = [&](const ColliderPair& pair) { return phase_[kind_of(pair.a)][kind_of(pair.b)]; };
   // Runs of pairs of the same phase, so that contacts stay in the order of pairs.
   for (std::size_t first = 0; first < pairs.size();) {
     const int phase = phase_of(pairs[first]);
-    if (phase < 0) throw unsupported(view.kind[pairs[first].a], view.kind[pairs[first].b]);
+    if (phase < 0) throw unsupported(kind_of(pairs[first].a), kind_of(pairs[first].b));
     std::size_t last = first + 1;
     while (last < pairs.size() && phase_of(pairs[last]) == phase) ++last;
     chain_[static_cast<std::size_t>(phase)]->collide(view, pairs.subspan(first, last - first), out);

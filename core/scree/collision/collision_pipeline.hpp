@@ -74,8 +74,8 @@ class CollisionPipeline {
   std::vector<NarrowPhase*> chain_;
   const Executor& executor_;
   CollisionSettings settings_;
-  /// Phase of the chain for two kinds, or -1.
-  std::array<std::array<int, kShapeKindCount>, kShapeKindCount> phase_{};
+  /// Phase of the chain for two kinds, or -1; the last kind is that of hollow cylinders.
+  std::array<std::array<int, kShapeKindCount + 1>, kShapeKindCount + 1> phase_{};
   std::size_t bound_primitives_ = 0;
 
   CollisionFilter filter_;

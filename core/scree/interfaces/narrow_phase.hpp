@@ -19,6 +19,8 @@ class NarrowPhase : public Plugin {
 
   /// True when pairs of these kinds can be given to collide(), in either order.
   [[nodiscard]] virtual bool supports(ShapeKind a, ShapeKind b) const = 0;
+  /// The same for a hollow cylinder, a drum seen from inside, and what lies in it; supports() speaks of solid cylinders.
+  [[nodiscard]] virtual bool supports_hollow([[maybe_unused]] ShapeKind inside) const { return false; }
   /// Called after setup and whenever shapes were added: primitives from
   /// `first_new` on are new. `shapes` outlives this.
   virtual void bind(const ShapeSet& shapes, std::size_t first_new_primitive);
