@@ -7,17 +7,22 @@ Every scene runs once, and leaves the contact problems of up to five of its step
 each tolerance: `scree solve`, one thread, in turns, so that a busy machine troubles all alike. A problem counts as solved
 when scree's judge finds a residual within the tolerance, within the time limit. The profile of a solver is the share of all
 problems that it solves within a factor of the time of the fastest. Writes profiles.csv, a plot for each tolerance, and
-prints a table. A peer is a program with the options and the JSON of `scree solve`. Standard library only.
+prints a table. A peer is a program with the options and the JSON of `scree solve`; those that lie beside PROGRAM (Bullet's,
+and Siconos' where it is installed) join by themselves. Scenes take turns, so that a budget cuts all of them alike.
+Standard library only.
 """
 
 import argparse
 import csv
+import itertools
 import json
 import os
 import pathlib
 import platform
+import resource
 import subprocess
 import sys
+import time
 
 import profile_plot
 
@@ -37,6 +42,8 @@ SCENES = {  # scene and the times [s] of its problems
     "sliding_block": (EXAMPLES / "sliding_block/scene.toml", (0.01, 0.05)),
 }
 BED_TIMES = (0.001, 0.005)
+SOLVERS = "pgs,asgs,jacobi,apgd,spg,admm,interior_point,semismooth_newton"
+PEERS = {"bullet": "bullet_solve", "siconos_admm": "siconos_solve --method admm", "siconos_nsgs": "siconos_solve --method nsgs"}
 SHORT = 0.05  # [s]; a shorter solve is repeated, and the least time counts
 FIELDS = ("scene", "problem", "contacts", "solver", "tolerance [m/s]", "solved", "status", "iterations", "residual [m/s]",
           "seconds [s]")
@@ -60,25 +67,31 @@ def record(program, scene, times, folder, settings=()):
 
 
 def all_problems(wanted):
-    """(scene, name, file, contacts) of every problem."""
-    names = wanted.scenes.split(",") if wanted.scenes else list(SCENES)
-    problems = []
+    """(scene, name, file, contacts) of every problem, scene after scene in turns."""
+    names = list(SCENES) if wanted.scenes is None else [name for name in wanted.scenes.split(",") if name]
+    scenes = []
     for name in names:
         scene, times = SCENES[name]
-        times = times[-wanted.problems:]
-        for key, (path, contacts) in record(wanted.program, scene, times, wanted.folder / name).items():
-            problems.append((name, key, path, contacts))
+        found = record(wanted.program, scene, times[-wanted.problems:], wanted.folder / name)
+        scenes.append([(name, key, path, contacts) for key, (path, contacts) in found.items()])
     for bed in wanted.bed:
+        if not bed.is_file():
+            print(f"{bed} is not there; its problems are left out", flush=True)
+            continue
         settings = (f"source.bed.file={bed.resolve()}", "ccp_solver.max_iterations=100")
-        found = record(wanted.program, HERE / "scenes/bed.toml", BED_TIMES, wanted.folder / bed.stem, settings)
-        problems += [("bed", f"{bed.stem} {key}", path, contacts) for key, (path, contacts) in found.items()]
-    return problems
+        found = record(wanted.program, HERE / "scenes/bed.toml", BED_TIMES[-wanted.problems:], wanted.folder / bed.stem, settings)
+        scenes.append([(bed.stem, key, path, contacts) for key, (path, contacts) in found.items()])
+    return [problem for turn in itertools.zip_longest(*scenes) for problem in turn if problem]
 
 
-def solve_once(command, limit):
-    """What a solve printed, or None when it took too long or could not solve such a problem."""
+def solve_once(command, wanted):
+    """What a solve printed, or None when it took too long or too much memory, or could not solve such a problem."""
+    def bounded():
+        most = int(wanted.memory * 2**30)
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=limit)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=wanted.limit, preexec_fn=bounded)
     except subprocess.TimeoutExpired:
         return None
     return json.loads(done.stdout) if done.returncode == 0 else None
@@ -87,11 +100,11 @@ def solve_once(command, limit):
 def solve(commands, solver, path, tolerance, wanted):
     command = [*commands[solver], str(path), "--tolerance", str(tolerance), "--max-iterations", str(wanted.max_iterations),
                "--threads", "1", "--json"]
-    result = solve_once(command, wanted.limit)
+    result = solve_once(command, wanted)
     for _ in range(wanted.repeats - 1):
         if result is None or result["wall_time"] > SHORT:
             break
-        again = solve_once(command, wanted.limit)
+        again = solve_once(command, wanted)
         if again and again["wall_time"] < result["wall_time"]:
             result = again
     return result
@@ -101,7 +114,11 @@ def measure(problems, commands, wanted):
     rows, file = [], open(wanted.folder / "profiles.csv", "w", newline="")
     table = csv.DictWriter(file, FIELDS)
     table.writeheader()
-    for scene, key, path, contacts in problems:
+    began = time.monotonic()
+    for done, (scene, key, path, contacts) in enumerate(problems):
+        if time.monotonic() - began > 60 * wanted.budget:
+            print(f"the budget is spent: the last {len(problems) - done} of {len(problems)} problems are left out", flush=True)
+            break
         failed = set()
         for tolerance in TOLERANCES:
             for solver in commands:
@@ -154,10 +171,13 @@ def main():
     parser.add_argument("program", help="the scree program")
     parser.add_argument("folder", type=pathlib.Path, help="for runs, problems, table and plots; runs found there are kept")
     parser.add_argument("--bed", type=pathlib.Path, action="append", default=[], help="a bed file, see scenes/bed.toml")
-    parser.add_argument("--solvers", default="pgs,asgs,apgd,spg,jacobi", help="of scree")
+    parser.add_argument("--solvers", default=SOLVERS, help="of scree")
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=COMMAND", help="another program's solver")
+    parser.add_argument("--no-peers", action="store_true", help="without those that lie beside the program")
     parser.add_argument("--scenes", help=f"some of {', '.join(SCENES)}")
-    parser.add_argument("--limit", type=float, default=60.0, help="seconds for a solve")
+    parser.add_argument("--limit", "--limit-seconds", type=float, default=60.0, help="seconds for a solve")
+    parser.add_argument("--budget", type=float, default=float("inf"), help="minutes after which no problem is begun")
+    parser.add_argument("--memory", type=float, default=4.0, help="of a solve, in GiB")
     parser.add_argument("--max-iterations", type=int, default=100000)
     parser.add_argument("--problems", type=int, default=5, help="at most so many of each scene, the last ones")
     parser.add_argument("--repeats", type=int, default=3, help="of solves shorter than 0.05 s; the least time counts")
@@ -170,6 +190,10 @@ def main():
             return report(list(csv.DictReader(file)), wanted.folder)
     print(f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}", flush=True)
     commands = {name: [wanted.program, "solve", "--solver", name] for name in wanted.solvers.split(",") if name}
+    beside = pathlib.Path(wanted.program).resolve().parent
+    for name, command in {} if wanted.no_peers else PEERS.items():
+        if (beside / command.split()[0]).exists():
+            commands[name] = [str(beside / command.split()[0]), *command.split()[1:]]
     commands |= {peer.split("=", 1)[0]: peer.split("=", 1)[1].split() for peer in wanted.peer}
     report(measure(all_problems(wanted), commands, wanted), wanted.folder)
 

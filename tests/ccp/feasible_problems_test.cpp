@@ -1,6 +1,10 @@
 // Every CCP solver on random feasible problems: contacts and rows of every kind, with bodies or with N written out, singular
-// N, no friction and a coefficient of a million, mass ratios up to a million. The velocities of all solutions are known; a
+// N, no friction and coefficients of up to a million, mass ratios up to a million. The velocities of all solutions are known; a
 // solver that reports convergence has them, and one that does not converge says so.
+//
+// Left out, for then no residual above the rounding of impulses says 1e-6 of the velocities: problems with an N of rank k whose
+// eigenvalues, in every unit's own mass, differ by more than 1e5 (one of sixteen that are drawn), and contacts that slide with a
+// coefficient above 1000 (they stick or open; u_n = mu |u_t| has mu times the error of u_t).
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -9,6 +13,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
+#include <sstream>
 
 #include "conformance/ccp_solver_case.hpp"
 #include "scree/ccp/guess.hpp"
@@ -21,13 +26,16 @@
 namespace scree::test {
 namespace {
 
-/// Of the largest speed: far enough below what is compared, as a residual becomes a velocity error of up to a hundred
-/// thousand times its size in these problems.
-constexpr double kTolerance = 2e-12;
-/// Least conditioning of a problem: below it a residual of kTolerance says too little of the velocities.
-constexpr double kConditioning = 1e-4;
+/// Least conditioning of a problem.
+constexpr double kConditioning = 1e-5;
+/// Greatest coefficient with which something slides.
+constexpr double kSlides = 1000.0;
 /// Velocities may differ from those of all solutions by this much of the largest speed.
 constexpr double kAgreement = 1e-6;
+
+/// A residual, of the largest speed, that means velocities to kAgreement: a residual may become a velocity error of its size
+/// over the conditioning, and of some 25 times as much where a cone is narrow or wide. No less than what rounding leaves.
+double tolerance_for(double conditioning) { return std::clamp(0.04 * kAgreement * conditioning, 2e-12, 1e-9); }
 
 std::unique_ptr<CcpSolver> make(const PluginEntry& entry) {
   return std::unique_ptr<CcpSolver>{dynamic_cast<CcpSolver*>(entry.make(default_options(entry.parameters)).release())};
@@ -51,6 +59,7 @@ struct Trial {
   PlantedProblem planted;
   TestingProblem problem;     ///< the planted one, or its form without bodies
   double speed = 0.0;         ///< the largest: of u, and of what the impulses add to it [m/s]
+  double conditioning = 1.0;  ///< of N
   std::vector<double> guess;  ///< may lie outside of what impulses may be
 };
 
@@ -99,10 +108,12 @@ Trial draw_trial() {
   what.compliant = below(0, 3) == 0;
   what.mass_decades = below(0, 7);
   what.friction_decades = below(0, 7);
+  what.slides = kSlides;
   what.repeats = 0.3 * below(0, 2);
   what.seed = *rc::gen::arbitrary<std::uint64_t>();
-  Trial trial{planted_problem(what), {}, 0.0, {}};
+  Trial trial{planted_problem(what), {}, 0.0, 0.0, {}};
   trial.problem = below(0, 3) == 0 ? with_matrix(trial.planted.problem) : trial.planted.problem;
+  trial.conditioning = conditioning(trial.problem.view());
   const std::vector<double>& u = trial.planted.u;
   for (std::size_t k = 0; k < u.size(); ++k) {
     trial.speed = std::max({trial.speed, std::abs(u[k]), std::abs(u[k] - trial.problem.r[k])});
@@ -122,7 +133,7 @@ SolveSummary solve_trial(const PluginEntry& entry, const Trial& trial, int max_i
   const std::unique_ptr<CcpSolver> solver = make(entry);
   std::vector<double> gamma = trial.guess, start = trial.guess;
   SolveContext context;
-  context.tolerance = kTolerance * trial.speed;
+  context.tolerance = tolerance_for(trial.conditioning) * trial.speed;
   context.max_iterations = max_iterations;
   const SolveSummary summary = solver->solve(problem, context, gamma);
 
@@ -152,26 +163,40 @@ SolveSummary solve_trial(const PluginEntry& entry, const Trial& trial, int max_i
   return summary;
 }
 
-// A thousand problems that are not too ill-conditioned, of 1150 drawn. The long tests give each solver the iterations that it needs, and print where they did not suffice.
+std::string line(int problem, const std::string& name, const SolveSummary& summary, const Trial& trial) {
+  std::ostringstream out;
+  out << "problem " << problem << ", conditioning " << trial.conditioning << ", " << name << ": "
+      << to_string(summary.status) << " after " << summary.iterations << ", residual " << summary.residual / trial.speed
+      << " of the largest speed, asked " << tolerance_for(trial.conditioning);
+  return out.str();
+}
+
+// A thousand problems and more, of those that are drawn. The long tests give each solver the iterations that it needs: then at
+// least three converge on all, and what the others missed is printed.
 TEST(feasible_problems, solvers_that_report_convergence_agree_and_the_others_say_so) {
-  const int problems = trials(1150);
   const bool to_the_end = std::getenv("SCREE_TRIALS") != nullptr;
-  ASSERT_EQ(::setenv("RC_PARAMS", ("seed=3 max_success=" + std::to_string(problems)).c_str(), 0), 0);
+  ASSERT_EQ(::setenv("RC_PARAMS", ("seed=3 max_success=" + std::to_string(trials(1100))).c_str(), 0), 0);
   std::map<std::string, int> converged;
   int count = 0;
   EXPECT_TRUE(rc::check("feasible problems", [&] {
     const Trial trial = draw_trial();
-    if (!(conditioning(trial.problem.view()) > kConditioning)) return;
+    if (!(trial.conditioning > kConditioning)) return;
     ++count;
     for (const PluginEntry* entry : solvers()) {
       const SolveSummary summary = solve_trial(*entry, trial, to_the_end ? 200000 : 1000);
       converged[entry->name] += static_cast<int>(summary.status == SolveStatus::converged);
-      if (!to_the_end || summary.status == SolveStatus::converged) continue;
-      std::cout << "problem " << count << ", " << entry->name << ": " << to_string(summary.status) << " after "
-                << summary.iterations << ", residual " << summary.residual / trial.speed << " of the largest speed\n";
+      if (to_the_end && summary.status != SolveStatus::converged) {
+        std::cout << line(count, entry->name, summary, trial) << '\n';
+      }
     }
   }));
-  for (const auto& [name, times] : converged) std::cout << name << ": " << times << " of " << count << " converged\n";
+  EXPECT_GE(count, 1000);
+  int complete = 0;
+  for (const auto& [name, times] : converged) {
+    complete += static_cast<int>(times == count);
+    std::cout << name << ": " << times << " of " << count << " converged\n";
+  }
+  EXPECT_GE(complete, to_the_end ? 3 : 0);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct PlantedKind {
   bool compliant = false;
   double mass_decades = 1.0;      ///< masses between 1 and 10^this
   double friction_decades = 0.0;  ///< coefficients of up to 10^this
+  double slides = 10.0;           ///< what touches sticks with more: u_n = mu |u_t| has mu times the error of u_t
   std::size_t reach = 0;          ///< bodies that touch are so many apart at most, as in a bed; 0: any
   double repeats = 0.0;           ///< share of the units that stand where one before them does: N is singular
   std::uint64_t seed = 1;
@@ -170,7 +171,7 @@ class Planter {
   void plant_part(double coefficient, std::size_t count, bool open, double n, double* g, double* u, double& u_n) {
     const double angle = 6.28 * uniform(), across = count == 2 ? std::sin(angle) : 0.0;
     const double along = count == 2 ? std::cos(angle) : chance(0.5) ? 1.0 : -1.0;
-    const bool slides = open || coefficient == 0.0 || (coefficient < kSlides && chance(0.5));
+    const bool slides = open || coefficient == 0.0 || (coefficient < what_.slides && chance(0.5));
     const double speed = slides ? uniform() / std::max(1.0, coefficient) : 0.0;
     const double force = coefficient * n * (slides ? 1.0 : uniform());
     g[0] = force * along, u[0] = -speed * along;
@@ -182,14 +183,12 @@ class Planter {
     const bool open = chance(0.4);
     const double most = std::max({1.0, block.friction, block.spinning, block.rolling});
     g[0] = open ? 0.0 : scale * uniform() / most;
-    u[0] = open && (most > kSlides || chance(0.5)) ? 0.1 + uniform() : 0.0;
+    u[0] = open && (most > what_.slides || chance(0.5)) ? 0.1 + uniform() : 0.0;
     if (block.rows >= 2) plant_part(block.friction, block.rows == 2 ? 1 : 2, open, g[0], g + 1, u + 1, u[0]);
     if (block.rows == 6) plant_part(block.spinning, 1, open, g[0], g + 3, u + 3, u[0]);
     if (block.rows >= 5) plant_part(block.rolling, 2, open, g[0], g + block.rows - 2, u + block.rows - 2, u[0]);
   }
 
-  static constexpr double kSlides =
-      10.0;  ///< beyond, what touches sticks: u_n = mu |u_t| has mu times the error of u_t
   PlantedKind what_;
   std::mt19937_64 random_;
   PlantedProblem out_;

@@ -20,6 +20,7 @@ BulletGroup::BulletGroup(const CcpProblem& problem, const std::vector<Vec3>& fre
   info_.m_erp = info_.m_erp2 = 0.0;
   info_.m_splitImpulse = 0;
   info_.m_solverMode = SOLVER_SIMD | (settings.two_directions ? SOLVER_USE_2_FRICTION_DIRECTIONS : 0);
+  solver_.give(settings.given_rows ? &problem_ : nullptr);
   add_bodies(free);
   add_contacts(dt);
   const auto ordered = [](const auto& made, const std::vector<std::uint32_t>& order, auto& out) {
@@ -50,6 +51,7 @@ void BulletGroup::add_contacts(double dt) {
     point.m_positionWorldOnA = to_bullet(c.arm_b);
     point.m_positionWorldOnB = to_bullet(c.arm_a);
     point.m_combinedFriction = c.friction;
+    point.m_partId0 = static_cast<int>(i);
     // r = D^T v_free + b, and b is the speed at which an open contact may close.
     const Vec3 free = from_bullet(bodies_[c.b]->getLinearVelocity() - bodies_[c.a]->getLinearVelocity());
     point.m_distance1 = std::max(0.0, dt * (problem_.r[3 * i] - dot(c.normal, free)));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "given_rows.hpp"
 #include "scree/ccp/problem.hpp"
 
 namespace scree::bench {
@@ -13,6 +14,7 @@ namespace scree::bench {
 /// How Bullet's solver works; the defaults are Bullet's own.
 struct BulletSettings {
   bool two_directions = false;  ///< friction along two tangents, as scree has it, in place of one
+  bool given_rows = false;  ///< rows of the problem itself, in place of those from free velocities, which are 0 then
   std::vector<std::uint32_t> bodies = {}, contacts = {};  ///< orders; empty: the problem's
 };
 
@@ -34,7 +36,7 @@ class BulletGroup {
 
   CcpProblem problem_;
   btContactSolverInfo info_;
-  btSequentialImpulseConstraintSolver solver_;
+  GivenRows solver_;
   btSphereShape shape_{1.0};
   std::vector<std::unique_ptr<btRigidBody>> bodies_;         ///< as in the problem
   std::vector<std::unique_ptr<btPersistentManifold>> made_;  ///< as in the problem
