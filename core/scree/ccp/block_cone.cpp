@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "scree/base/require.hpp"
+#include "scree/ccp/rolling_cone.hpp"
 
 namespace scree {
 namespace {
@@ -65,6 +66,8 @@ double nearest_normal(std::span<const Part> parts, double d_n, double g_n) {
 }
 
 void project_cone(const CcpBlock& block, const BlockMetric& metric, std::span<double> g) {
+  if (block.rows == 6) return project_rolling<6>(block, metric, g.data());
+  if (block.rows == 5) return project_rolling<5>(block, metric, g.data());
   Parts parts = parts_of(block, metric, g);
   const auto within = [&](const Part& part) { return part.length <= part.coefficient * g[0]; };
   if (g[0] >= 0.0 && std::all_of(parts.all().begin(), parts.all().end(), within)) return;

@@ -15,9 +15,7 @@ using Rows = BlockVector;
 
 /// Rows whose own stiffness, beside that of the rows they depend on, is less than this share of it are left out.
 constexpr double kDependent = 1e-12;
-/// Steps of a cone, and the share of the first change (squared) at which the others are not worth taking.
 constexpr int kConeSteps = 4;
-constexpr double kSmallChange = 1e-6;
 
 /// A of block k without compliance, as BlockSteps::bind() describes it.
 void fill_part(const CcpProblem& problem, std::size_t k, std::span<const double> body_weights, std::span<double> a) {
@@ -248,7 +246,7 @@ void BlockSteps::advance_cone(std::size_t k, std::span<const double> u, std::spa
     for (std::size_t i = 0; i < n; ++i) {
       const double moved = trial[i] - g[i];
       change += d[i] * moved * moved;
-      for (std::size_t j = 0; j < n; ++j) v[j] += a[j * n + i] * moved;
+      for (std::size_t j = 0; j < n; ++j) v[j] += a[i * n + j] * moved;  // A is symmetric
       g[i] = trial[i];
     }
     if (step == 0) first_change = change;

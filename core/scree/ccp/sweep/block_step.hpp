@@ -44,6 +44,14 @@ class BlockSteps {
 
   /// Moves the impulse `g` of block k, whose velocity is `u`.
   void advance(std::size_t k, std::span<const double> u, std::span<double> g) const;
+  /// A of block k, by rows; of free blocks A^+.
+  [[nodiscard]] std::span<const double> matrix(std::size_t k) const {
+    return std::span{matrices_}.subspan(first_[k], first_[k + 1] - first_[k]);
+  }
+  [[nodiscard]] double relaxation() const { return relaxation_; }
+  /// Steps that a cone takes at most, and the share of the first one's change (squared) at which the others are not taken.
+  [[nodiscard]] int cone_steps() const { return cone_steps_; }
+  static constexpr double kSmallChange = 1e-6;
   /// Per row, d of cones, of other blocks the diagonal of A [1/kg].
   [[nodiscard]] std::span<const double> stiffness() const { return stiffness_; }
 

@@ -24,6 +24,7 @@ void BlockSweep::bind(const CcpProblem& problem, ContactSweep& contacts, const s
   g_.resize(rows);
   v_.resize(problem.matrix.empty() ? 0 : rows);
   if (!problem.matrix.empty()) bind_columns();
+  cones_.bind(problem_, contacts, steps_, singles_);
 }
 
 void BlockSweep::set_impulses(std::span<const double> gamma) {
@@ -40,35 +41,42 @@ void BlockSweep::impulses(std::span<double> gamma) const {
 }
 
 void BlockSweep::sweep(bool backward) {
-  const std::size_t count = problem_.blocks.size();
-  for (std::size_t k = 0; k < count; ++k) update(backward ? count - 1 - k : k);
+  const std::size_t alone = singles_.size();
+  for (std::size_t k = 0; k < alone && !backward; ++k) update(singles_[k]);
+  cones_.sweep(backward, steps_, r_, compliance_, g_);
+  for (std::size_t k = alone; k > 0 && backward; --k) update(singles_[k - 1]);
 }
 
-void BlockSweep::update(std::size_t k) {
+void BlockSweep::velocity_of(std::size_t k, std::span<double> u) const {
   const CcpBlock& block = problem_.blocks[k];
-  const std::size_t n = block.rows, first = block.first_row;
-  BlockVector velocity{}, change{};
-  const std::span<double> u{velocity.data(), n}, g = std::span<double>{g_}.subspan(first, n);
+  const std::size_t first = block.first_row;
   if (v_.empty()) {
     const std::span<const sweep::Body> bodies = contacts_->bodies();
     relative_velocity(jacobian_of(problem_, block), twist_of(bodies[block.a]), twist_of(bodies[block.b]), u);
   } else {
-    std::copy_n(v_.begin() + static_cast<std::ptrdiff_t>(first), n, u.begin());
+    std::copy_n(v_.begin() + static_cast<std::ptrdiff_t>(first), u.size(), u.begin());
   }
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < u.size(); ++i) {
     u[i] += r_[first + i];
-    if (!compliance_.empty()) u[i] += compliance_[first + i] * g[i];
-    change[i] = -g[i];
+    if (!compliance_.empty()) u[i] += compliance_[first + i] * g_[first + i];
   }
+}
+
+void BlockSweep::update(std::size_t k) {
+  const CcpBlock& block = problem_.blocks[k];
+  const std::size_t n = block.rows;
+  BlockVector velocity{}, change{};
+  const std::span<double> u{velocity.data(), n}, g = std::span<double>{g_}.subspan(block.first_row, n);
+  velocity_of(k, u);
+  for (std::size_t i = 0; i < n; ++i) change[i] = -g[i];
   steps_.advance(k, u, g);
-  bool moved = false;
-  for (std::size_t i = 0; i < n; ++i) moved = (change[i] += g[i]) != 0.0 || moved;
-  if (!moved) return;
-  if (v_.empty()) {
-    add_to_bodies(block, {change.data(), n});
-  } else {
-    add_to_rows(k, {change.data(), n});
-  }
+  for (std::size_t i = 0; i < n; ++i) change[i] += g[i];
+  push(k, {change.data(), n});
+}
+
+void BlockSweep::push(std::size_t k, std::span<const double> change) {
+  if (std::all_of(change.begin(), change.end(), [](double x) { return x == 0.0; })) return;
+  v_.empty() ? add_to_bodies(problem_.blocks[k], change) : add_to_rows(k, change);
 }
 
 void BlockSweep::add_to_bodies(const CcpBlock& block, std::span<const double> change) {
@@ -76,8 +84,15 @@ void BlockSweep::add_to_bodies(const CcpBlock& block, std::span<const double> ch
   add_impulse(jacobian_of(problem_, block), change, on_a, on_b);
   const auto push = [&](std::uint32_t index, const Twist& impulse) {
     if (!(problem_.inverse_mass[index] > 0.0)) return;  // never written: threads may read it
-    const Twist w = apply_inverse_mass(problem_, index, impulse);
     sweep::Body& body = contacts_->bodies()[index];
+    if (contacts_->isotropic()) {
+      const Lanes v{impulse.linear.x, impulse.linear.y, impulse.linear.z, 0.0};
+      const Lanes omega{impulse.angular.x, impulse.angular.y, impulse.angular.z, 0.0};
+      body.linear += body.linear[3] * v;
+      body.angular += body.angular[3] * omega;
+      return;
+    }
+    const Twist w = apply_inverse_mass(problem_, index, impulse);
     body.linear += Lanes{w.linear.x, w.linear.y, w.linear.z, 0.0};
     body.angular += Lanes{w.angular.x, w.angular.y, w.angular.z, 0.0};
   };

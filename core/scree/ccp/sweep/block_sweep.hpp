@@ -6,13 +6,15 @@
 // column: a block that does not move costs nothing. Either way the sweep's state (w or v) is linear in the impulses.
 // (Matrices in files are not always symmetric to the last digits, so that rows cannot stand for columns.)
 //
-// One block after the other, on the calling thread: blocks are joints and the like, few beside contacts.
+// On the calling thread: first, one after the other, joints and the like, few beside contacts; then, where there are bodies,
+// contacts that resist rolling, four at a time (cone_sweep.hpp).
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "scree/ccp/sweep/block_step.hpp"
+#include "scree/ccp/sweep/cone_sweep.hpp"
 #include "scree/ccp/sweep/contact_sweep.hpp"
 
 namespace scree {
@@ -29,7 +31,7 @@ class BlockSweep {
   /// Puts them where they belong in those of the whole problem.
   void impulses(std::span<double> gamma) const;
 
-  /// Every block once, in order, or backwards.
+  /// Every block once, in the sweep's order, or backwards.
   void sweep(bool backward);
 
   /// One a row of the blocks [N s].
@@ -43,7 +45,9 @@ class BlockSweep {
   [[nodiscard]] std::span<double> v() { return v_; }
 
  private:
+  void velocity_of(std::size_t k, std::span<double> u) const;
   void update(std::size_t k);
+  void push(std::size_t k, std::span<const double> change);
   void add_to_bodies(const CcpBlock& block, std::span<const double> change);
   void bind_columns();
   void add_to_rows(std::size_t k, std::span<const double> change);
@@ -53,6 +57,8 @@ class BlockSweep {
   sweep::BlockSteps steps_;
   std::span<const double> r_, compliance_;
   std::vector<double> g_, v_;
+  std::vector<std::uint32_t> singles_;  ///< blocks that go alone
+  sweep::ConeSweep cones_;
   /// Of the matrix: block column j has the blocks column_first_[j] .. column_first_[j + 1] - 1.
   std::vector<std::uint32_t> column_first_, column_row_;
   std::vector<std::size_t> column_value_;
