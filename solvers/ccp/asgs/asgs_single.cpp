@@ -19,8 +19,8 @@ constexpr double kLightest = 1e16;
 /// With a larger share of contacts that miss the tolerance there is nothing to be seen yet [1]; so many intervals go without a look.
 constexpr double kMany = 2.0 * Southwell::kFew;
 constexpr int kLooksLeftOut = 5;
-/// Sweeps without a new least residual, beside half of all, after which double precision goes on.
-constexpr int kPatience = 100;
+/// Intervals between looks without a new least residual, beside half of all sweeps, after which double precision goes on.
+constexpr int kPatience = 12;
 
 }  // namespace
 
@@ -61,7 +61,7 @@ double Asgs::objective_of_x() const {
 
 // Fetches x_ and w_; returns the residual.
 double Asgs::look_single() {
-  single_.impulses(x_);
+  single_.impulses(delassus_.problem(), x_);
   delassus_.body_velocities(x_, w_);
   return ccp_residual(delassus_, x_, w_, partial_);
 }
@@ -85,7 +85,8 @@ void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
   int next_look = 2, last_look = 0, found = 0;
   bool uphill = false, looked = false;
   while (summary.residual > goal && summary.iterations + 2 <= context.max_iterations && !uphill &&
-         failures_ < kFailures && summary.iterations - found < std::max(kPatience, summary.iterations / 2)) {
+         failures_ < kFailures &&
+         summary.iterations - found < std::max(kPatience * options_.check_interval, summary.iterations / 2)) {
     const double now = single_.advance(goal);
     uphill = !(now <= before + kRounding * std::abs(before));
     before = now;
@@ -96,6 +97,7 @@ void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
         !uphill && ((summary.iterations >= next_look && !early) || summary.iterations + 2 > context.max_iterations);
     if (looked) {
       look_single(summary, start);
+      uphill = objective_ > start;
       last_look = summary.iterations;
       next_look = summary.iterations + look_distance(summary, goal);
     }
@@ -109,7 +111,7 @@ void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
   }
   if (summary.residual <= context.tolerance) return;
   if (uphill) x_ = x_best_;
-  if (!uphill && !looked) single_.impulses(x_);
+  if (!uphill && !looked) single_.impulses(delassus_.problem(), x_);
   meet_x();
   if (objective_ <= start) return;
   x_ = x_best_;

@@ -51,6 +51,17 @@ TEST(asgs_single, mass_ratios_beyond_its_rounding_are_left_to_double_precision) 
   }
 }
 
+// Rounded impulses would lie beside the cones, some outside, by 1e-7 of their size.
+TEST(asgs_single, impulses_lie_in_the_cones_to_the_rounding_of_double_precision) {
+  const TestingProblem t = isotropic_problem(5, 0.5);
+  Asgs solver{AsgsOptions{.relaxed = false}};
+  const Solved s = solve(solver, t.view(), 1e-3 * speed_of(t));
+  for (std::size_t i = 0; i < t.contacts.size(); ++i) {
+    const Vec3 g = load_block(s.gamma, i);
+    EXPECT_LE(norm(g - project_cone3(g, t.contacts[i].friction)), 1e-15 * norm(g));
+  }
+}
+
 // Whatever the limit, the answer is not above the guess, be it a good or a bad one.
 TEST(asgs_single, no_answer_lies_above_the_guess) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scree/ccp/cone3.hpp"
 #include "scree/ccp/lanes.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
 
@@ -167,12 +168,13 @@ bool SingleSweep::choose() {
   return false;
 }
 
-void SingleSweep::impulses(std::span<double> gamma) const {
+void SingleSweep::impulses(const CcpProblem& problem, std::span<double> gamma) const {
   for (std::size_t at = 0; at < groups_.size(); ++at) {
     const single::Lanes3& g = groups_[at].g;
     for (std::size_t k = 0; k < 8; ++k) {
       const std::uint32_t i = grouping_.groups[at][k];
-      if (i != sweep::kNoContact) store_block(gamma, i, {g.x[k], g.y[k], g.z[k]});
+      if (i == sweep::kNoContact) continue;
+      store_block(gamma, i, project_cone3({g.x[k], g.y[k], g.z[k]}, problem.contacts[i].friction));
     }
   }
 }

@@ -34,8 +34,8 @@ class SingleSweep {
   [[nodiscard]] double missing() const { return missing_; }
   /// Chooses where the next pair starts: at z, where this is false.
   bool choose();
-  /// Impulses of z, of the whole problem.
-  void impulses(std::span<double> gamma) const;
+  /// Impulses of z, of the whole `problem`, on the cones as it has them.
+  void impulses(const CcpProblem& problem, std::span<double> gamma) const;
   /// Gives z the velocities `w`, without what rounding added, and those before the same correction.
   void correct(std::span<const Twist> w);
 
