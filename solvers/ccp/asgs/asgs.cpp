@@ -200,10 +200,16 @@ void Asgs::plan(bool uphill) {
     conjugate_ = !uphill && ++failures_ < kFailures;
     return;  // momentum starts from none
   }
+  plan_momentum(against_ > 0.0);
+  if (uphill) theta_ = 1.0, beta_ = 0.0;
+}
+
+// Nesterov's next step; none after one that went `against` the momentum.
+void Asgs::plan_momentum(bool against) {
   const double next = 0.5 * theta_ * (std::sqrt(theta_ * theta_ + 4.0) - theta_);
   beta_ = options_.accelerated ? theta_ * (1.0 - theta_) / (theta_ * theta_ + next) : 0.0;
   theta_ = next;
-  if (uphill || (options_.restart && against_ > 0.0)) theta_ = 1.0, beta_ = 0.0;
+  if (options_.restart && against) theta_ = 1.0, beta_ = 0.0;
 }
 
 // After a pair that ended uphill; `before` is the objective that it began with.

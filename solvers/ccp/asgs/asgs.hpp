@@ -79,6 +79,8 @@ class Asgs final : public CcpSolver {
   void backward(const Executor* executor);
   void advance(bool both, const Executor* executor);
   void plan(bool uphill);
+  void plan_momentum(bool against);
+  bool plan_single(bool uphill);
   void go_back(double before);
   void undo();
   void return_to_best();

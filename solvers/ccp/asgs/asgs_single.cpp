@@ -76,6 +76,28 @@ void Asgs::look_single(SolveSummary& summary, double start) {
   std::copy(x_.begin(), x_.end(), x_best_.begin());
 }
 
+// Where the next pair starts; false when there is no way on.
+bool Asgs::plan_single(bool uphill) {
+  if (failures_ < kFailures) {
+    if (!uphill && single_.choose()) return true;
+    if (uphill) failures_ = kFailures;
+    if (!uphill && ++failures_ == kFailures) {
+      single_.begin_momentum();
+      theta_ = 1.0, beta_ = 0.0;
+    }
+    return !uphill;
+  }
+  if (uphill && beta_ == 0.0) return false;
+  if (uphill) {
+    single_.undo();
+    ++undone_;
+  }
+  plan_momentum(single_.against() > 0.0);
+  if (uphill) theta_ = 1.0, beta_ = 0.0;
+  single_.set_momentum(beta_);
+  return true;
+}
+
 // As far as it goes; descend() goes on from there.
 void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
   const double goal = single_goal(context.tolerance), start = objective_;
@@ -83,13 +105,12 @@ void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
   single_.start(delassus_.problem(), x_, w_);
   double before = start, least = summary.residual;
   int next_look = 2, last_look = 0, found = 0;
-  bool uphill = false, looked = false;
-  while (summary.residual > goal && summary.iterations + 2 <= context.max_iterations && !uphill &&
-         failures_ < kFailures &&
+  bool going = true, uphill = false, looked = false;
+  while (going && summary.residual > goal && summary.iterations + 2 <= context.max_iterations &&
          summary.iterations - found < std::max(kPatience * options_.check_interval, summary.iterations / 2)) {
     const double now = single_.advance(goal);
     uphill = !(now <= before + kRounding * std::abs(before));
-    before = now;
+    if (!uphill) before = now;
     summary.iterations += 2;
     const bool early =
         single_.missing() > kMany && summary.iterations < last_look + kLooksLeftOut * options_.check_interval;
@@ -97,7 +118,7 @@ void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
         !uphill && ((summary.iterations >= next_look && !early) || summary.iterations + 2 > context.max_iterations);
     if (looked) {
       look_single(summary, start);
-      uphill = objective_ > start;
+      going = objective_ <= start;
       last_look = summary.iterations;
       next_look = summary.iterations + look_distance(summary, goal);
     }
@@ -107,7 +128,7 @@ void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
     }
     if (looked && may_finish(context, summary)) finish(context, summary);
     if (summary.residual < least) least = summary.residual, found = summary.iterations;
-    if (!uphill && !single_.choose()) ++failures_;
+    going = going && plan_single(uphill);
   }
   if (summary.residual <= context.tolerance) return;
   if (uphill) x_ = x_best_;

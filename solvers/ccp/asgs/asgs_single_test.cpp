@@ -62,6 +62,32 @@ TEST(asgs_single, impulses_lie_in_the_cones_to_the_rounding_of_double_precision)
   }
 }
 
+// The objective that steers the steps is that of the impulses, with momentum and without; the way back leads to the same bits.
+TEST(asgs_single, objective_is_that_of_the_impulses_and_undo_returns_to_those_before) {
+  const TestingProblem t = isotropic_problem(7, 0.5);
+  const CcpProblem problem = t.view();
+  DelassusOperator delassus;
+  delassus.bind(problem, nullptr);
+  SingleSweep sweep;
+  std::vector<double> gamma(problem.rows(), 0.0), before(gamma);
+  sweep.start(problem, gamma, std::vector<Twist>(problem.bodies()));
+  double last = 0.0;
+  for (int pair = 0; pair < 12; ++pair) {
+    const double objective = sweep.advance(1.0);
+    sweep.impulses(problem, gamma);
+    // Sums of a few hundred terms of both signs, each to 6e-8.
+    EXPECT_NEAR(objective, delassus.objective(gamma), 1e-5 * std::abs(objective));
+    EXPECT_LE(objective, last + 1e-6 * std::abs(objective)) << "pair " << pair;
+    last = objective;
+    if (pair == 5) sweep.begin_momentum();
+    if (pair < 5) (void)sweep.choose();
+    if (pair == 10) before = gamma;
+  }
+  sweep.undo();
+  sweep.impulses(problem, gamma);
+  EXPECT_EQ(gamma, before);
+}
+
 // Whatever the limit, the answer is not above the guess, be it a good or a bad one.
 TEST(asgs_single, no_answer_lies_above_the_guess) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -125,6 +125,13 @@ inline Count exceeds(const Group& group, const Lanes3& from, const Lanes& speed)
   return (d.x * d.x > n * n) | (d.y * d.y + d.z * d.z > t * t);
 }
 
+/// x^T d y, d the metric of the steps; lanes without a contact have none.
+inline Lanes metric_product(const Group& group, const Lanes3& x, const Lanes3& y) {
+  const Lanes zero{};
+  const Lanes product = x.x * y.x / group.step_n + (x.y * y.y + x.z * y.z) / group.step_t;
+  return group.step_n > zero ? product : zero;
+}
+
 [[gnu::always_inline]] inline void prefetch(const Group& group, const Body* bodies) {
   for (const Bodies8* index : {&group.a, &group.b}) {
     for (const std::uint32_t body : *index) __builtin_prefetch(bodies + body, 1);

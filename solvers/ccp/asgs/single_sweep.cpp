@@ -53,6 +53,7 @@ void SingleSweep::start(const CcpProblem& problem, std::span<const double> gamma
   correct(w);
   y_ = old_ = bodies_;
   step_ = {};
+  momentum_ = false;
   linear_z_ = 0.0;
   for (std::size_t i = 0; i < gamma.size(); ++i) linear_z_ += problem.r[i] * gamma[i];
   linear_y_ = linear_old_ = linear_z_;
@@ -96,34 +97,72 @@ void SingleSweep::put(const CcpProblem& problem, std::size_t at, std::size_t lan
 }
 
 double SingleSweep::advance(double speed) {
-  go();
+  momentum_ ? go_with_momentum() : go();
+  momentum_ ? sweep_forward<true>() : sweep_forward<false>();
+  const auto least = static_cast<float>(speed);
+  momentum_ ? sweep_backward<true>(least) : sweep_backward<false>(least);
+  measure();
+  return 0.5 * products_[5] + linear_z_;
+}
+
+template <bool momentum>
+void SingleSweep::sweep_forward() {
   single::Body* const bodies = bodies_.data();
   const std::size_t n = groups_.size();
   const single::Lanes a = single::Lanes{} + static_cast<float>(step_.a);
-  const single::Lanes b = single::Lanes{} + static_cast<float>(step_.b);
+  const single::Lanes b = single::Lanes{} + (momentum ? beta_ : static_cast<float>(step_.b));
   for (std::size_t k = 0; k < n; ++k) {
     if (k + kAhead < n) single::prefetch(groups_[k + kAhead], bodies);
-    const single::Lanes3 y = history_[k].y, next = y + a * (groups_[k].g - y) + b * (y - history_[k].old);
-    history_[k] = {next, y};
+    const single::Lanes3 y = history_[k].y, z = groups_[k].g;
+    const single::Lanes3 next = momentum ? z + b * (z - history_[k].old) : y + a * (z - y) + b * (y - history_[k].old);
+    history_[k] = {next, momentum ? z : y};
     single::update(groups_[k], next, bodies);
   }
-  Lanes linear{};
+}
+
+template <bool momentum>
+void SingleSweep::sweep_backward(float speed) {
+  single::Body* const bodies = bodies_.data();
+  const single::Lanes least = single::Lanes{} + speed;
+  Lanes linear{}, against{};
   single::Count count{};
-  const single::Lanes least = single::Lanes{} + static_cast<float>(speed);
-  for (std::size_t k = n; k-- > 0;) {
+  for (std::size_t k = groups_.size(); k-- > 0;) {
     if (k >= kAhead) single::prefetch(groups_[k - kAhead], bodies);
     const single::Lanes3 from = groups_[k].g;
     single::update(groups_[k], from, bodies);
     count += single::exceeds(groups_[k], from, least);
     const auto [low, high] = widen(dot(groups_[k].r, groups_[k].g));
     linear += low + high;
+    if (!momentum) continue;
+    const Pair product =
+        widen(single::metric_product(groups_[k], history_[k].y - groups_[k].g, groups_[k].g - history_[k].old));
+    against += product.linear + product.angular;
   }
   linear_z_ = sum_of(linear);
+  against_ = sum_of(against);
   std::int64_t moved = 0;
   for (int k = 0; k < 8; ++k) moved -= count[k];
   missing_ = static_cast<double>(moved) / static_cast<double>(contacts_);
-  measure();
-  return 0.5 * products_[5] + linear_z_;
+}
+
+void SingleSweep::begin_momentum() {
+  momentum_ = true;
+  beta_ = 0.0F;
+  for (std::size_t k = 0; k < groups_.size(); ++k) history_[k].old = groups_[k].g;
+  old_ = bodies_;
+}
+
+void SingleSweep::undo() {
+  for (std::size_t k = 0; k < groups_.size(); ++k) groups_[k].g = history_[k].old;
+  bodies_ = old_;
+}
+
+void SingleSweep::go_with_momentum() {
+  for (std::size_t k = 0; k < bodies_count_; ++k) {
+    const single::Body z = bodies_[k];
+    bodies_[k] = z + beta_ * (z - old_[k]);
+    old_[k] = z;
+  }
 }
 
 // Bodies from z to the start of the next pair.

@@ -5,7 +5,7 @@
 // is not done then is done by double sweeps.
 //
 // Contacts only, without compliance, between bodies whose inverse inertia is a multiple of the identity; in the order of the
-// contacts, on the calling thread. The terms are those of conjugate_steps.hpp.
+// contacts, on the calling thread. The terms are those of conjugate_steps.hpp. When these steps have failed, Nesterov's follow.
 #pragma once
 
 #include <span>
@@ -34,18 +34,31 @@ class SingleSweep {
   [[nodiscard]] double missing() const { return missing_; }
   /// Chooses where the next pair starts: at z, where this is false.
   bool choose();
+  /// From here on a pair starts at z + beta (z - z_old), beta being set before each; at z first.
+  void begin_momentum();
+  void set_momentum(double beta) { beta_ = static_cast<float>(beta); }
+  /// (y - z)^T d (z - z_old) of the last pair with momentum, d the metric of the steps [J].
+  [[nodiscard]] double against() const { return against_; }
+  /// Back to z_old.
+  void undo();
   /// Impulses of z, of the whole `problem`, on the cones as it has them.
   void impulses(const CcpProblem& problem, std::span<double> gamma) const;
   /// Gives z the velocities `w`, without what rounding added, and those before the same correction.
   void correct(std::span<const Twist> w);
 
  private:
+  /// Where the pair started, and the start before it; with momentum, the z before it.
   struct History {
     single::Lanes3 y, old;
   };
   void fill(const CcpProblem& problem);
   void put(const CcpProblem& problem, std::size_t at, std::size_t lane, std::uint32_t i);
+  template <bool momentum>
+  void sweep_forward();
+  template <bool momentum>
+  void sweep_backward(float speed);
   void go();
+  void go_with_momentum();
   void measure();
 
   sweep::Sequence sequence_;
@@ -56,7 +69,9 @@ class SingleSweep {
   std::vector<single::Body> bodies_, y_, old_;  ///< those of the problem, and one that stands for nothing
   PlaneStep step_;
   PlaneStep::Products products_{};
-  double missing_ = 1.0;
+  bool momentum_ = false;
+  float beta_ = 0.0F;
+  double missing_ = 1.0, against_ = 0.0;
   std::size_t contacts_ = 0;
   double linear_z_ = 0.0, linear_y_ = 0.0, linear_old_ = 0.0;
 };
