@@ -114,10 +114,11 @@ SphereDecomposition DecompositionCache::find_or(const std::string& content,
   try {
     std::optional<SphereDecomposition> found;
     if (!file.empty()) found = read(file);
-    SphereDecomposition answer = found ? *std::move(found) : compute();
-    if (!found && !file.empty()) write(file, answer);
+    const bool is_kept = found.has_value();
+    SphereDecomposition answer = is_kept ? *std::move(found) : compute();
+    if (!is_kept && !file.empty()) write(file, answer);
     lock.lock();
-    ++(found ? counts_.read : counts_.computed);
+    ++(is_kept ? counts_.read : counts_.computed);
     lock.unlock();
     promise.set_value(answer);
     return answer;

@@ -22,6 +22,8 @@ TriangleCorners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
 class CrossingSearch {
  public:
   CrossingSearch(const TriangleMesh& unit, std::span<const MeshSide> sides) : mesh_{unit}, tree_{unit} {
+    boxes_.reserve(mesh_.triangles.size());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) boxes_.push_back(bounds_of(corners_of(mesh_, t)));
     across_.assign(3 * mesh_.triangles.size(), kNone);
     for_each_edge(sides, [&](std::span<const MeshSide> edge) {
       if (edge.size() != 2) return;
@@ -33,7 +35,9 @@ class CrossingSearch {
   void run(MeshReport& report) const {
     for (std::uint32_t a = 0; a < mesh_.triangles.size() && report.crossings < kMostCrossings; ++a) {
       const TriangleCorners corners = corners_of(mesh_, a);
-      tree_.visit(expanded(bounds_of(corners), kTouching), [&](std::uint32_t b) {
+      const Aabb near = expanded(boxes_[a], kTouching);
+      tree_.visit(near, [&](std::uint32_t b) {
+        if (!overlap(boxes_[b], near)) return true;
         const std::optional<Vec3> at = crossing(a, corners, b);
         if (at && report.crossings++ == 0) report.crossing_at = *at;
         return report.crossings < kMostCrossings;
@@ -88,6 +92,7 @@ class CrossingSearch {
 
   const TriangleMesh& mesh_;
   TriangleTree tree_;
+  std::vector<Aabb> boxes_;            // of each triangle
   std::vector<std::uint32_t> across_;  // the triangle beyond side k of triangle t, at 3 t + k
 };
 

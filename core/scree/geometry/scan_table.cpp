@@ -170,7 +170,7 @@ ScannedParticle read_particle(const NumberRow& row, int line) {
   particle.thickness = kMillimetre * positive(numbers[2], kColumns[2]);
   particle.mass = kMilligram * positive(numbers[3], kColumns[3]);
   for (int axis = 0; axis < 3; ++axis) {
-    const auto column = static_cast<std::size_t>(4 + axis);
+    const auto column = static_cast<std::size_t>(axis) + 4;
     particle.inertia[axis] = kInertiaUnit * positive(numbers[column], kColumns[column]);
   }
   const long long n = whole(numbers[7], kColumns[7]);
