@@ -33,13 +33,13 @@ ShapeData random_shape(RandomStream& random, bool as_mesh) {
 }
 
 void add(ShapeSet& shapes, int count) {
-  static const std::vector<ShapeData> kFew = [] {
+  static const std::vector<ShapeData> some = [] {
     RandomStream random{1, "shapes"};
     std::vector<ShapeData> few;
     for (int i = 0; i < 20; ++i) few.push_back(random_shape(random, i % 4 == 0));
     return few;
   }();
-  for (int i = 0; i < count; ++i) (void)shapes.add(kFew[static_cast<std::size_t>(i) % kFew.size()]);
+  for (int i = 0; i < count; ++i) (void)shapes.add(some[static_cast<std::size_t>(i) % some.size()]);
 }
 
 /// Allocations of a phase that is told of 1000 new shapes when it knows `before` already.
