@@ -94,7 +94,10 @@ def solve_once(command, wanted):
         done = subprocess.run(command, capture_output=True, text=True, timeout=wanted.limit, preexec_fn=bounded)
     except subprocess.TimeoutExpired:
         return None
-    return json.loads(done.stdout) if done.returncode == 0 else None
+    try:  # libraries of peers may print sentences of their own first
+        return json.loads(done.stdout[max(0, done.stdout.find("{")):]) if done.returncode == 0 else None
+    except ValueError:
+        return None
 
 
 def solve(commands, solver, path, tolerance, wanted):

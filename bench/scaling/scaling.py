@@ -28,6 +28,7 @@ TILE_BODIES = 8000
 TILE_SIDE = 0.1  # [m]
 COST_TILES = ((2, 2), (8, 4))        # 32 000 and 256 000 of a tile of 8000
 MEMORY_BODIES = (20000, 100000)
+LARGE_TILES = (10, 9)                # 720 000, with two million contacts
 
 SCENE = """
 [simulation]
@@ -214,6 +215,18 @@ def measure_memory(program, tile, folder, iterations):
     write_table(folder / "memory.csv", rows)
 
 
+def measure_large(program, tile, folder, iterations):
+    """One bed of two million contacts, two steps."""
+    bed = folder / "bed_large.txt"
+    count, half_x, half_y = repeat(tile, *LARGE_TILES, bed)
+    scene = folder / "large.toml"
+    write_scene(scene, BED_SOURCE.replace("{file}", str(bed)).replace("{count}", str(count)), half_x, half_y, iterations)
+    run = Measured(program, scene, folder / "large", 2)
+    contacts = run.last("contacts")
+    write_table(folder / "large.csv", [{"bodies": count, "contacts": round(contacts), "peak [GiB]": round(run.memory / 2**30, 2),
+                                        "peak [byte/contact]": round(run.memory / contacts), "cpu [s]": round(run.cpu, 1)}])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("program", help="the scree program")
@@ -221,17 +234,19 @@ def main():
     parser.add_argument("--bed", type=pathlib.Path, help="settled bed to repeat; made with examples/settle if left out")
     parser.add_argument("--steps", type=int, default=5, help="steps N of the shorter run")
     parser.add_argument("--iterations", type=int, default=50, help="of the solver, in every step")
-    parser.add_argument("--only", choices=("cost", "memory"), help="one of the two")
+    parser.add_argument("--only", choices=("cost", "memory", "large"), help="one of them")
     wanted = parser.parse_args()
     folder = wanted.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     tile = wanted.bed.resolve() if wanted.bed else make_tile(wanted.program, folder)
     print(f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, "
           f"{wanted.iterations} iterations a step\n", flush=True)
-    if wanted.only != "memory":
+    if wanted.only in (None, "cost"):
         measure_cost(wanted.program, tile, folder, wanted.steps, wanted.iterations)
-    if wanted.only != "cost":
+    if wanted.only in (None, "memory"):
         measure_memory(wanted.program, tile, folder, wanted.iterations)
+    if wanted.only in (None, "large"):
+        measure_large(wanted.program, tile, folder, wanted.iterations)
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ class BlockSteps {
   [[nodiscard]] double relaxation() const { return relaxation_; }
   /// Steps that a cone takes at most, and the share of the first one's change (squared) at which the others are not taken.
   [[nodiscard]] int cone_steps() const { return cone_steps_; }
-  static constexpr double kSmallChange = 1e-6;
+  static constexpr double kSmallChange = 1e-6;  ///< [1]
   /// Per row, d of cones, of other blocks the diagonal of A [1/kg].
   [[nodiscard]] std::span<const double> stiffness() const { return stiffness_; }
 
