@@ -51,6 +51,9 @@ Distance distance(const PlacedPair& pair, double limit) {
   Simplex simplex;
   Vec3 v = pair.centre_b() - pair.centre_a();
   if (guess(pair, limit, v)) return out;
+  // Half of those that are left meet: their faces come in while the walk goes on.
+  fetch_faces(pair.a);
+  fetch_faces(pair.b);
   const double touching = kTouching * pair.size;
   double least = std::numeric_limits<double>::infinity();  // squared length of v, once v is a point of B - A
   for (int step = 0; step < kMostSteps; ++step) {

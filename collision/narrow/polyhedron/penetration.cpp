@@ -55,18 +55,21 @@ class Search {
     // The likeliest ones first: they bound the others.
     if (!pair_.a.faces.empty()) try_face_of_a(shallowest(scratch_.depth_a));
     if (!pair_.b.faces.empty()) try_face_of_b(shallowest(scratch_.depth_b));
+    const Vec3 n = best_.normal;
+    measure(pair_.a, pair_.corner_b(pair_.lowest_of_b(n)), scratch_.deep_a);
+    measure(pair_.b, pair_.to_b(pair_.a.corner(farthest(pair_.a, n))), scratch_.deep_b);
     for (std::uint32_t f = 0; f < pair_.a.faces.size(); ++f) {
-      if (can_win(scratch_.depth_a[f])) try_face_of_a(f);
+      if (can_win(std::max(scratch_.depth_a[f], scratch_.deep_a[f]))) try_face_of_a(f);
     }
     for (std::uint32_t f = 0; f < pair_.b.faces.size(); ++f) {
-      if (can_win(scratch_.depth_b[f])) try_face_of_b(f);
+      if (can_win(std::max(scratch_.depth_b[f], scratch_.deep_b[f]))) try_face_of_b(f);
     }
   }
 
   /// The edges one of whose faces is near enough. `turned`: seen from a, b's normals point towards a.
   template <class Corner, class Turn>
-  void collect(const Polytope& solid, const std::vector<double>& depth, std::vector<NearEdge>& edges,
-               const Corner& corner, const Turn& turned) const {
+  void collect(const Polytope& solid, const std::vector<double>& depth, const std::vector<double>& deep,
+               std::vector<NearEdge>& edges, const Corner& corner, const Turn& turned) const {
     edges.clear();
     const auto add = [&](const Edge& edge) {
       const Vec3 from = corner(edge.from);
@@ -81,6 +84,7 @@ class Search {
         // An edge between two near faces belongs to its left one.
         const std::uint32_t other = edge.left == f ? edge.right : edge.left;
         if (edge.left != f && can_win(depth[other])) continue;
+        if (!can_win(std::min(deep[f], deep[other]))) continue;
         add(edge);
         edges.back().left = turned(solid.faces[f].normal);
         edges.back().right = turned(solid.faces[other].normal);
@@ -90,11 +94,11 @@ class Search {
   }
   void try_edges() {
     collect(
-        pair_.a, scratch_.depth_a, scratch_.edges_a, [&](std::uint32_t i) { return pair_.a.corner(i); },
-        [](const Vec3& n) { return n; });
+        pair_.a, scratch_.depth_a, scratch_.deep_a, scratch_.edges_a,
+        [&](std::uint32_t i) { return pair_.a.corner(i); }, [](const Vec3& n) { return n; });
     collect(
-        pair_.b, scratch_.depth_b, scratch_.edges_b, [&](std::uint32_t i) { return pair_.corner_b(i); },
-        [&](const Vec3& n) { return -(pair_.turn * n); });
+        pair_.b, scratch_.depth_b, scratch_.deep_b, scratch_.edges_b,
+        [&](std::uint32_t i) { return pair_.corner_b(i); }, [&](const Vec3& n) { return -(pair_.turn * n); });
     best_.separation += kFaceBias * pair_.size;
     const double of_faces = best_.separation;
     for (const NearEdge& b : scratch_.edges_b) {

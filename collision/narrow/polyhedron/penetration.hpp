@@ -30,6 +30,7 @@ struct NearEdge {
 /// Buffers of penetration(), kept by the caller.
 struct AxisScratch {
   std::vector<double> depth_a, depth_b;  ///< of the shared point below each face [m]
+  std::vector<double> deep_a, deep_b;    ///< of the other solid's deepest corner below each face [m]
   std::vector<NearEdge> edges_a, edges_b;
 };
 

@@ -25,6 +25,13 @@ Lanes load(const double* from) {
   return lanes;
 }
 
+template <class Item>
+void fetch(std::span<const Item> items) {
+  constexpr std::size_t kCacheLine = 64, kMost = 1024;
+  const char* const at = reinterpret_cast<const char*>(items.data());
+  for (std::size_t i = 0; i < std::min(items.size_bytes(), kMost); i += kCacheLine) __builtin_prefetch(at + i);
+}
+
 /// The given faces without those that lie in the plane of an earlier one.
 std::vector<Face> different_planes(std::span<const Face> faces) {
   std::vector<Face> planes;
@@ -78,6 +85,13 @@ std::vector<std::uint32_t> rim_of(std::span<const Triangle> triangles) {
 }
 
 }  // namespace
+
+void fetch_faces(const Polytope& solid) {
+  fetch(solid.faces);
+  fetch(solid.edges);
+  fetch(solid.sides);
+  fetch(solid.first_side);
+}
 
 std::uint32_t farthest(const Polytope& solid, const Vec3& direction) {
   const Lanes x = Lanes{} + direction.x, y = Lanes{} + direction.y, z = Lanes{} + direction.z;

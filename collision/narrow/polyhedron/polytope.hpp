@@ -50,6 +50,9 @@ struct Polytope {
   }
 };
 
+/// Fetches faces, sides and edges into the cache, up to a kilobyte of each.
+void fetch_faces(const Polytope& solid);
+
 /// The first corner that is farthest along `direction`.
 [[nodiscard]] std::uint32_t farthest(const Polytope& solid, const Vec3& direction);
 
