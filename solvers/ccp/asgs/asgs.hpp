@@ -16,6 +16,9 @@
 // (conjugate_steps.hpp) in place of Nesterov's, until these fail twice, or once
 // end uphill.
 //
+// Isotropic bodies begin in single precision (single_sweep.hpp); all contacts end with updates of those alone that still miss the
+// tolerance (sweep/southwell.hpp).
+//
 // Glossary: x, the iterate; y = x + beta (x - x_old), where a pair starts; w = M^-1
 // D x, the body velocities, which obey the same linear combination, so that
 // starting from y needs no product; d, the diagonal metric of the local steps.

@@ -8,8 +8,9 @@
 namespace scree::test {
 namespace {
 
-TestingProblem isotropic_problem(std::uint64_t seed, double mass_decades) {
-  TestingProblem t = random_problem({.bodies = 60, .contacts = 150, .mass_decades = mass_decades, .seed = seed});
+TestingProblem isotropic_problem(std::uint64_t seed, double mass_decades, std::size_t size = 1) {
+  TestingProblem t =
+      random_problem({.bodies = 60 * size, .contacts = 150 * size, .mass_decades = mass_decades, .seed = seed});
   for (Mat3& j : t.inverse_inertia) j = Mat3::diagonal({j.row0.x, j.row0.x, j.row0.x});
   return t;
 }
@@ -130,6 +131,17 @@ TEST(asgs_single, watching_changes_nothing) {
     return gamma;
   };
   EXPECT_EQ(run(false), run(true));
+}
+
+// 15 000 contacts are several chunks of every loop that threads share.
+TEST(asgs_single, two_threads_give_the_bits_of_one) {
+  const TestingProblem t = isotropic_problem(4, 0.5, 100);
+  const Executor two{2};
+  Asgs one{AsgsOptions{}}, other{AsgsOptions{}};
+  const Solved a = solve(one, t.view(), 1e-4 * speed_of(t), 400),
+               b = solve(other, t.view(), 1e-4 * speed_of(t), 400, &two);
+  EXPECT_EQ(a.summary.iterations, b.summary.iterations);
+  EXPECT_EQ(a.gamma, b.gamma);
 }
 
 // Bodies that are not isotropic, compliance and blocks have no single precision.
