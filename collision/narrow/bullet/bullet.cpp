@@ -77,9 +77,11 @@ convex::Answer BulletNarrowPhase::ask(const convex::ConvexSolid& a, const convex
 namespace {
 
 void list(scree::PluginList& plugins) {
-  plugins.add<scree::NarrowPhase, scree::BulletNarrowPhase>(
-      "bullet",
-      "Bullet's GJK and EPA on all kinds; where they fail: the best of climbs over directions. No hollow cylinders.");
+  plugins
+      .add<scree::NarrowPhase, scree::BulletNarrowPhase>("bullet",
+                                                         "Bullet's GJK and EPA on all kinds; where they fail: the best "
+                                                         "of climbs over directions. No hollow cylinders.")
+      .default_place = 3;
 }
 
 }  // namespace

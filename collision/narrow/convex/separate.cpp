@@ -24,7 +24,7 @@ constexpr double kExact = 1e-7;
 /// Overlap from which there is more than one way out [size of the pair].
 constexpr double kDeep = 0.05;
 /// Directions next to each other climb to the same top [1]: a cosine.
-constexpr double kNextTo = 0.9;
+constexpr double kNextTo = 0.98;
 
 /// The place of the contact is that of the nearest points, its height that of the supporting planes.
 Separation at(const ConvexSolid& a, const ConvexSolid& b, const Vec3& n, const Vec3& on_a, const Vec3& on_b) {
@@ -147,7 +147,7 @@ std::optional<Separation> climb_from_best(const ConvexSolid& a, const ConvexSoli
 /// True when some likely direction shows less overlap, or, for solids deep in each other, the best of them climb to one
 /// that does.
 bool is_refuted(const ConvexSolid& a, const ConvexSolid& b, const Separation& found) {
-  constexpr std::size_t kClimbs = 4;
+  constexpr std::size_t kClimbs = 6;
   std::vector<Vec3> likely;
   add_likely(a, b, likely);
   const auto is_better = [&](double gap) { return gap > found.gap + kExact; };
@@ -179,7 +179,7 @@ std::optional<Separation> checked(const ConvexSolid& a, const ConvexSolid& b, co
 }
 
 Separation best_climb(const ConvexSolid& a, const ConvexSolid& b) {
-  constexpr std::size_t kClimbs = 8;
+  constexpr std::size_t kClimbs = 24;
   std::vector<Vec3> likely;
   add_likely(a, b, likely);
   if (const auto best = climb_from_best(a, b, likely, kClimbs)) return *best;

@@ -33,7 +33,7 @@ struct Answer {
 /// number, the answer is refused; and so is a depth when one of some hundred likely directions shows less of it.
 [[nodiscard]] std::optional<Separation> checked(const ConvexSolid& a, const ConvexSolid& b, const Answer& answer);
 
-/// The fallback: the best of the climbs from the eight most promising of those directions. Always finite.
+/// The fallback: the best of the climbs from the 24 most promising of those directions. Always finite.
 [[nodiscard]] Separation best_climb(const ConvexSolid& a, const ConvexSolid& b);
 
 }  // namespace scree::convex
