@@ -130,7 +130,8 @@ int run(const char* file, int repeats) {
 
   Scree pgs{host, problem, ""}, coloured{host, problem, "order = \"coloured\""};
   BulletGroup one{problem, free, kStep, {}}, two{problem, free, kStep, {.two_directions = true}};
-  BulletGroup as_read{problem, free, kStep, {true, file_order(made.bodies()), made.found()}};
+  BulletGroup as_read{
+      problem, free, kStep, {.two_directions = true, .bodies = file_order(made.bodies()), .contacts = made.found()}};
   const auto of = [](const char* name, auto& with) {
     return Contender{name, [&with](int n) { return with.solve(n); }, [&with] { return with.impulses(); }, {}, {}};
   };
