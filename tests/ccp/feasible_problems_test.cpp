@@ -139,6 +139,7 @@ SolveSummary solve_trial(const PluginEntry& entry, const Trial& trial, int max_i
 
   RC_LOG() << entry.name << ": " << to_string(summary.status) << " after " << summary.iterations << ", residual "
            << summary.residual << ", speed " << trial.speed << '\n';
+  RC_ASSERT(summary.status != SolveStatus::infeasible);
   RC_ASSERT(std::all_of(gamma.begin(), gamma.end(), [](double g) { return std::isfinite(g); }));
   DelassusOperator delassus;
   delassus.bind(problem, nullptr);

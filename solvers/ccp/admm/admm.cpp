@@ -164,11 +164,11 @@ SolveSummary Admm::solve(const CcpProblem& problem, const SolveContext& context,
   }
   SolveSummary summary{SolveStatus::iteration_limit, 0, 0.0};
   bool sound = true;
-  if (!best_.good_enough()) {
+  if (!best_.done()) {
     prepare(problem, gamma);
     sound = factor(options_.penalty);
   }
-  while (sound && !best_.good_enough() && summary.iterations < context.max_iterations) {
+  while (sound && !best_.done() && summary.iterations < context.max_iterations) {
     const Residuals residuals = iterate();
     const int k = ++summary.iterations;
     const bool look = k % options_.check_interval == 0 || k == context.max_iterations || k <= 2;

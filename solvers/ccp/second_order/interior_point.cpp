@@ -244,7 +244,7 @@ void InteriorPoint::approach(const SolveContext& context, SolveSummary& summary)
   start_inside();
   gradient();
   int last_progress = 0;
-  while (!best_.good_enough() && summary.iterations < context.max_iterations) {
+  while (!best_.done() && summary.iterations < context.max_iterations) {
     const bool moved = iterate();
     const int k = ++summary.iterations;
     candidate_ = gamma_;
@@ -265,7 +265,7 @@ SolveSummary InteriorPoint::solve(const CcpProblem& problem, const SolveContext&
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }
   SolveSummary summary{SolveStatus::iteration_limit, 0, 0.0};
-  if (!best_.good_enough()) {
+  if (!best_.done()) {
     prepare(problem, gamma);
     approach(context, summary);
     newton_.run(system_, problem, kFinish, context, gamma, best_, summary);

@@ -211,7 +211,7 @@ void ProximalNewton::run(direct::DirectSystem& system, const CcpProblem& problem
   restart();
   project(0.0);
   int last_progress = summary.iterations;
-  while (!best.good_enough() && summary.iterations < context.max_iterations) {
+  while (!best.done() && summary.iterations < context.max_iterations) {
     if (is_solved(context.tolerance)) {
       centre_ = p_;
       sigma_ = std::min(options.growth * sigma_, most);

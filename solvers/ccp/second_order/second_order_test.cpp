@@ -154,6 +154,30 @@ TEST(second_order, newton_steps_make_use_of_a_guess) {
   EXPECT_LE(2 * warm.iterations, cold.summary.iterations);
 }
 
+/// Two bodies, one upon the other, on a floor, and below a ceiling that comes down, unless it is `open` above.
+TestingProblem squeezed(bool open) {
+  TestingProblem t;
+  const std::uint32_t below = t.add_immovable(), above = t.add_immovable();
+  const std::uint32_t body = t.add_body(2.0, {0.1, 0.1, 0.1}), other = t.add_body(1.0, {0.1, 0.1, 0.1});
+  t.add_contact(below, body, {0, 0, 1}, {}, {0, 0, -0.1}, 0.5, {-1.0, 0.3, 0.0});
+  t.add_contact(body, other, {0, 0, 1}, {0, 0, 0.1}, {0, 0, -0.1}, 0.3, {-0.5, 0.0, 0.1});
+  if (!open) {
+    t.add_block({.kind = CcpKind::nonnegative, .a = above, .b = other}, {{{}, {{0, 0, -1}, {}}}}, {-1.0});
+  }
+  return t;
+}
+
+// Floor and ceiling come together, and no impulse of what is between them holds them apart.
+TEST(second_order, bodies_squeezed_between_walls_have_no_solution) {
+  InteriorPoint interior{InteriorPointOptions{}};
+  SemismoothNewton newton{PenaltyOptions{}};
+  for (CcpSolver* const solver : std::initializer_list<CcpSolver*>{&interior, &newton}) {
+    const Solved s = solve(*solver, squeezed(false).view(), 1e-9, 1000);
+    EXPECT_EQ(s.summary.status, SolveStatus::infeasible) << s.summary.iterations << ", residual " << s.summary.residual;
+    EXPECT_EQ(solve(*solver, squeezed(true).view(), 1e-9, 1000).summary.status, SolveStatus::converged);
+  }
+}
+
 // Two contacts in one place, and two joints: which of them carries the load is not determined, that they do is.
 TEST(second_order, repeated_units_of_every_kind_are_solved) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

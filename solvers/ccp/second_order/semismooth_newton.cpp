@@ -35,7 +35,7 @@ SolveSummary SemismoothNewton::solve(const CcpProblem& problem, const SolveConte
     return {SolveStatus::numerical_failure, 0, std::numeric_limits<double>::infinity()};
   }
   SolveSummary summary{SolveStatus::iteration_limit, 0, 0.0};
-  if (!best_.good_enough()) {
+  if (!best_.done()) {
     system_.bind(problem);
     newton_.run(system_, problem, options_, context, gamma, best_, summary);
   }
