@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t kBoxesPerChunk = 8192;
 constexpr std::size_t kSearchesPerChunk = 4096;
 constexpr std::uint32_t kMovable = 0x80000000u;
+/// Items ahead of the present one that are fetched into the cache.
+constexpr std::size_t kPrefetch = 16;
 constexpr std::uint32_t kBinsPerOctave = 8;
 
 /// Sizes by their leading bits: eight bins between powers of two, growing with the size.
@@ -38,17 +40,20 @@ void Grid::copy_boxes(const BoxView& boxes, const Executor& executor) {
   const std::size_t n = boxes.size();
   // The middle box as origin: single precision is finest where the grains are.
   origin_ = boxes.box[n / 2].lower;
-  items_.resize(n);
+  placed_.resize(n);
   size_.resize(n);
   executor.for_chunks(n, kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Vec3 lower = boxes.box[i].lower - origin_;
       const Vec3 upper = boxes.box[i].upper - origin_;
-      Item& item = items_[i];
+      Placed& placed = placed_[i];
+      Item& item = placed.item;
       item.lower = {rounded_down(lower.x), rounded_down(lower.y), rounded_down(lower.z)};
       item.minus_upper = {rounded_down(-upper.x), rounded_down(-upper.y), rounded_down(-upper.z)};
       item.box = static_cast<std::uint32_t>(i) | (boxes.movable[i] != 0 ? kMovable : 0u);
       item.owner = boxes.owner[i];
+      placed.ball = boxes.ball.empty() ? grid::Ball{0.5 * (lower + upper), 0.5 * norm(upper - lower)}
+                                       : grid::Ball{boxes.ball[i].centre - origin_, boxes.ball[i].radius};
       size_[i] = 0.0f;
       for (std::size_t k = 0; k < 3; ++k) size_[i] = std::max(size_[i], -item.minus_upper[k] - item.lower[k]);
     }
@@ -102,8 +107,8 @@ std::size_t Grid::level_of(float size) const {
 void Grid::fit_levels(const Executor& executor) {
   constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min();
   constexpr std::int32_t kHigh = std::numeric_limits<std::int32_t>::max();
-  extents_.resize(Executor::chunk_count(items_.size(), kBoxesPerChunk));
-  executor.for_chunks(items_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
+  extents_.resize(Executor::chunk_count(placed_.size(), kBoxesPerChunk));
+  executor.for_chunks(placed_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     Extents& extents = extents_[first / kBoxesPerChunk];
     extents.fill({{kHigh, kHigh, kHigh}, {kLow, kLow, kLow}, 0});
     for (std::size_t i = first; i < last; ++i) {
@@ -111,9 +116,10 @@ void Grid::fit_levels(const Executor& executor) {
       Extent& extent = extents[l];
       ++extent.boxes;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t cell = levels_[l].cell_of(centre(items_[i].lower[k], items_[i].minus_upper[k]));
+        const std::int32_t cell = levels_[l].cell_of(centre(placed_[i].item.lower[k], placed_[i].item.minus_upper[k]));
         extent.lower[k] = std::min(extent.lower[k], cell);
         extent.upper[k] = std::max(extent.upper[k], cell);
+        placed_[i].at[k] = cell;
       }
     }
   });
@@ -137,61 +143,70 @@ void Grid::fit_levels(const Executor& executor) {
 }
 
 void Grid::sort_into_cells(const Executor& executor) {
-  item_cell_.resize(items_.size());
-  executor.for_chunks(items_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
+  executor.for_chunks(placed_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const grid::Level& level = levels_[level_of(size_[i])];
       std::array<std::uint32_t, 3> at;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t cell = level.cell_of(centre(items_[i].lower[k], items_[i].minus_upper[k]));
-        at[k] = level.axis[k].store(cell - level.axis[k].origin);
+        at[k] = level.axis[k].store(placed_[i].at[k] - level.axis[k].origin);
       }
-      item_cell_[i] = level.index(at[0], at[1], at[2]);
+      placed_[i].cell = level.index(at[0], at[1], at[2]);
     }
   });
   // Counting sort; counts land one place late, so that the scatter leaves the beginnings behind.
-  for (const std::uint32_t cell : item_cell_) ++cell_begin_[cell + 2];
+  for (const Placed& placed : placed_) ++cell_begin_[placed.cell + 2];
   for (std::size_t c = 2; c < cell_begin_.size(); ++c) cell_begin_[c] += cell_begin_[c - 1];
-  sorted_.resize(items_.size());
-  for (std::size_t i = 0; i < items_.size(); ++i) sorted_[cell_begin_[item_cell_[i] + 1]++] = items_[i];
+  const std::size_t n = placed_.size();
+  order_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) order_[cell_begin_[placed_[i].cell + 1]++] = static_cast<std::uint32_t>(i);
+  sorted_.resize(n);
+  sorted_cell_.resize(n);
+  balls_.resize(n);
+  executor.for_chunks(n, kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if (k + kPrefetch < last) __builtin_prefetch(&placed_[order_[k + kPrefetch]]);
+      const Placed& placed = placed_[order_[k]];
+      sorted_[k] = placed.item;
+      sorted_cell_[k] = placed.cell;
+      balls_.set(k, placed.ball);
+    }
+  });
 }
 
-/// `query` holds the upper corner, and minus the lower one, in the places of `item`'s lower and minus upper corner.
-bool Grid::meets(const Item& query, const Item& item) {
+/// True when the lower corner of neither lies beyond the upper one of the other.
+bool Grid::meets(const Item& item, const Item& other) {
 #ifdef __AVX__
-  const __m256 limit = _mm256_load_ps(query.lower.data());
+  // lower + (minus_upper of the other) <= 0 would round: halves are exchanged and signs turned instead.
   const __m256 corners = _mm256_load_ps(item.lower.data());
+  const __m256 exchanged = _mm256_permute2f128_ps(corners, corners, 1);
+  const __m256 limit = _mm256_xor_ps(exchanged, _mm256_set1_ps(-0.0f));
   // Six of the eight numbers are coordinates.
-  return (_mm256_movemask_ps(_mm256_cmp_ps(corners, limit, _CMP_LE_OQ)) & 0x77) == 0x77;
+  return (_mm256_movemask_ps(_mm256_cmp_ps(_mm256_load_ps(other.lower.data()), limit, _CMP_LE_OQ)) & 0x77) == 0x77;
 #else
   bool meet = true;
   for (std::size_t k = 0; k < 3; ++k) {
-    meet &= (item.lower[k] <= query.lower[k]) & (item.minus_upper[k] <= query.minus_upper[k]);
+    meet &= (other.lower[k] <= -item.minus_upper[k]) & (other.minus_upper[k] <= -item.lower[k]);
   }
   return meet;
 #endif
 }
 
-void Grid::scan(const Item& item, std::uint32_t first, std::uint32_t last, Pairs& out) const {
-  if (first >= last) return;
-  if (out.buffer.size() < out.count + (last - first)) out.buffer.resize(2 * (out.count + (last - first)));
-  Item query = item;
-  for (std::size_t k = 0; k < 3; ++k) {
-    query.lower[k] = -item.minus_upper[k];
-    query.minus_upper[k] = -item.lower[k];
-  }
+void Grid::keep_meeting(Found& found) const {
+  found.pairs.resize(found.near_count + 1);
   // Every pair is written, and overwritten by the next one unless it counts: a branch here would be guessed wrong often.
-  CandidatePair* const pairs = out.buffer.data();
-  std::size_t count = out.count;
-  for (std::uint32_t k = first; k < last; ++k) {
-    const Item& other = sorted_[k];
+  CandidatePair* const pairs = found.pairs.data();
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < found.near_count; ++k) {
+    const Item& item = sorted_[found.near[k].one];
+    const Item& other = sorted_[found.near[k].other];
     pairs[count] = {item.box & ~kMovable, other.box & ~kMovable};
-    count += meets(query, other) & (((item.box | other.box) & kMovable) != 0) & (item.owner != other.owner);
+    count += meets(item, other) & (((item.box | other.box) & kMovable) != 0) & (item.owner != other.owner);
   }
-  out.count = count;
+  found.pair_count = count;
 }
 
-void Grid::search_level(const Item& item, const grid::Level& level, std::uint32_t begin, Pairs& out) const {
+void Grid::search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const {
+  const Item& item = sorted_[i];
   std::array<grid::CellRange, 3> range;
   for (std::size_t k = 0; k < 3; ++k) {
     range[k] = level.axis[k].clip(level.cell_of(double{item.lower[k]} - 0.5 * level.cell),
@@ -201,34 +216,76 @@ void Grid::search_level(const Item& item, const grid::Level& level, std::uint32_
   const grid::LevelAxis& x_axis = level.axis[0];
   const std::uint32_t x0 = x_axis.store(range[0].first);
   const std::uint32_t x1 = x_axis.store(range[0].last);
+  const auto scan = [&](std::uint32_t row, std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t first = std::max(cell_begin_[row + from], begin), last = cell_begin_[row + to + 1];
+    if (first >= last) return;
+    found.make_room(last - first);
+    found.near_count += balls_.meeting(i, first, last, &found.near[found.near_count]);
+  };
   for (std::int32_t z = range[2].first; z <= range[2].last; ++z) {
     for (std::int32_t y = range[1].first; y <= range[1].last; ++y) {
       // Cells of a row follow each other, and so do their boxes.
       const std::uint32_t row = level.index(0, level.axis[1].store(y), level.axis[2].store(z));
-      const auto scan_cells = [&](std::uint32_t from, std::uint32_t to) {
-        scan(item, std::max(begin, cell_begin_[row + from]), cell_begin_[row + to + 1], out);
-      };
       if (x0 <= x1) {
-        scan_cells(x0, x1);
+        scan(row, x0, x1);
       } else {
-        scan_cells(x0, static_cast<std::uint32_t>(x_axis.stored) - 1);
-        scan_cells(0, x1);
+        scan(row, x0, static_cast<std::uint32_t>(x_axis.stored) - 1);
+        scan(row, 0, x1);
       }
     }
   }
 }
 
-void Grid::search(std::size_t first, std::size_t last, Pairs& out) const {
+void Grid::find_rows(const grid::Level& level, std::uint32_t cell, Rows& rows) const {
+  rows.cell = cell;
+  const auto width = static_cast<std::uint32_t>(level.axis[0].stored);
+  const auto depth = static_cast<std::uint32_t>(level.axis[1].stored);
+  const auto height = static_cast<std::uint32_t>(level.axis[2].stored);
+  const std::uint32_t x = (cell - level.first_cell) % width;
+  const std::uint32_t y = (cell - level.first_cell) / width % depth;
+  const std::uint32_t z = (cell - level.first_cell) / width / depth;
+  const std::uint32_t x0 = x > 0 ? x - 1 : 0, x1 = std::min(x + 1, width - 1);
+  const auto set = [&](std::size_t k, std::uint32_t row_y, std::uint32_t row_z, bool exists) {
+    rows.first[k] = exists ? cell_begin_[level.index(k == 0 ? x : x0, row_y, row_z)] : 0;
+    rows.last[k] = exists ? cell_begin_[level.index(x1, row_y, row_z) + 1] : 0;
+  };
+  set(0, y, z, true);
+  set(1, y + 1, z, y + 1 < depth);
+  const bool above = z + 1 < height;
+  set(2, y - 1, z + 1, above && y > 0);
+  set(3, y, z + 1, above);
+  set(4, y + 1, z + 1, above && y + 1 < depth);
+}
+
+void Grid::search_rows(std::uint32_t i, const Rows& rows, Found& found) const {
+  std::size_t most = 0;
+  for (std::size_t k = 0; k < 5; ++k) most += rows.last[k] - rows.first[k];
+  found.make_room(most);
+  grid::Balls::Near* near = &found.near[found.near_count];
+  near += balls_.meeting(i, i + 1, rows.last[0], near);
+  for (std::size_t k = 1; k < 5; ++k) near += balls_.meeting(i, rows.first[k], rows.last[k], near);
+  found.near_count = static_cast<std::size_t>(near - found.near.data());
+}
+
+void Grid::search(std::size_t first, std::size_t last, Found& found) const {
+  found.near_count = 0;
   std::size_t own = 0;
-  for (std::size_t i = first; i < last; ++i) {
+  Rows rows;
+  for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
     while (own + 1 < level_count_ && i >= cell_begin_[levels_[own + 1].first_cell]) ++own;
-    const Item& item = sorted_[i];
+    const grid::Level& level = levels_[own];
     // Of two boxes of one level the first one finds the other.
-    search_level(item, levels_[own], static_cast<std::uint32_t>(i + 1), out);
+    if (level.is_wrapped()) {
+      search_level(i, level, i + 1, found);
+    } else {
+      if (sorted_cell_[i] != rows.cell) find_rows(level, sorted_cell_[i], rows);
+      search_rows(i, rows, found);
+    }
     for (std::size_t l = own + 1; l < level_count_; ++l) {
-      if (levels_[l].boxes > 0) search_level(item, levels_[l], 0, out);
+      if (levels_[l].boxes > 0) search_level(i, levels_[l], 0, found);
     }
   }
+  keep_meeting(found);
 }
 
 void Grid::find_pairs(const BoxView& boxes, const Executor& executor, std::vector<CandidatePair>& out) {
@@ -238,22 +295,23 @@ void Grid::find_pairs(const BoxView& boxes, const Executor& executor, std::vecto
   fit_levels(executor);
   sort_into_cells(executor);
   const std::size_t chunks = Executor::chunk_count(sorted_.size(), kSearchesPerChunk);
-  if (chunk_pairs_.size() < chunks) chunk_pairs_.resize(chunks);
+  if (found_.size() < chunks) found_.resize(chunks);
   executor.for_chunks(sorted_.size(), kSearchesPerChunk, [&](std::size_t first, std::size_t last) {
-    Pairs& pairs = chunk_pairs_[first / kSearchesPerChunk];
-    pairs.count = 0;
-    search(first, last, pairs);
+    search(first, last, found_[first / kSearchesPerChunk]);
   });
   std::size_t total = out.size();
-  for (std::size_t k = 0; k < chunks; ++k) total += chunk_pairs_[k].count;
+  for (std::size_t k = 0; k < chunks; ++k) total += found_[k].pair_count;
   out.reserve(total);
   for (std::size_t k = 0; k < chunks; ++k) {
-    const Pairs& pairs = chunk_pairs_[k];
-    out.insert(out.end(), pairs.buffer.begin(), pairs.buffer.begin() + static_cast<std::ptrdiff_t>(pairs.count));
+    const auto begin = found_[k].pairs.begin();
+    out.insert(out.end(), begin, begin + static_cast<std::ptrdiff_t>(found_[k].pair_count));
   }
 }
 
-void Grid::release_workspace() { release(items_, size_, extents_, item_cell_, cell_begin_, sorted_, chunk_pairs_); }
+void Grid::release_workspace() {
+  release(placed_, size_, extents_, cell_begin_, order_, sorted_, sorted_cell_, found_);
+  balls_.release();
+}
 
 }  // namespace scree
 

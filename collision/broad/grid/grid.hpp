@@ -12,7 +12,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "balls.hpp"
 #include "level.hpp"
+#include "scree/base/uninitialised.hpp"
 #include "scree/interfaces/broad_phase.hpp"
 
 namespace scree {
@@ -33,11 +35,26 @@ class Grid : public BroadPhase {
     std::array<float, 3> minus_upper;  // [m]
     std::uint32_t owner;
   };
-  /// Pairs of a chunk, with room to write one more without asking.
-  struct Pairs {
-    std::vector<CandidatePair> buffer;
-    std::size_t count = 0;
+  /// What is sorted: an item and its ball, on one cache line, since the sort reads them in any order.
+  struct alignas(64) Placed {
+    Item item;
+    grid::Ball ball;
+    std::array<std::int32_t, 3> at;  // cell along each axis
+    std::uint32_t cell;              // index
   };
+  /// What the search of a chunk finds.
+  struct Found {
+    UninitialisedVector<grid::Balls::Near> near;
+    std::size_t near_count = 0;
+    UninitialisedVector<CandidatePair> pairs;
+    std::size_t pair_count = 0;
+
+    /// Room for so many more, and for a whole round of lanes.
+    void make_room(std::size_t more) {
+      if (near.size() < near_count + more + grid::Balls::kLanes) near.resize(2 * (near_count + more) + 64);
+    }
+  };
+  static_assert(sizeof(Placed) == 64);
   static bool meets(const Item& query, const Item& item);
   static constexpr std::size_t kLevels = 40;
   /// Cells that the boxes of one level occupy, in one chunk.
@@ -53,22 +70,33 @@ class Grid : public BroadPhase {
   void fit_levels(const Executor& executor);
   void sort_into_cells(const Executor& executor);
   [[nodiscard]] std::size_t level_of(float size) const;
-  void search(std::size_t first, std::size_t last, Pairs& out) const;
-  void search_level(const Item& item, const grid::Level& level, std::uint32_t begin, Pairs& out) const;
-  void scan(const Item& item, std::uint32_t first, std::uint32_t last, Pairs& out) const;
+  void search(std::size_t first, std::size_t last, Found& found) const;
+  /// Rows of cells that hold what the items of one cell can meet and that come no earlier in the order.
+  struct Rows {
+    std::uint32_t cell = ~0u;
+    std::array<std::uint32_t, 5> first,
+        last;  // sorted items; the cell's own row begins anywhere before its items' ends
+  };
+  void find_rows(const grid::Level& level, std::uint32_t cell, Rows& rows) const;
+  void search_rows(std::uint32_t i, const Rows& rows, Found& found) const;
+  /// Looks for what item i can meet among the items from `begin` on in the cells of `level`.
+  void search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const;
+  void keep_meeting(Found& found) const;
 
   Vec3 origin_;
-  std::vector<Item> items_;               // in the order of the BoxView
-  std::vector<float> size_;               // longest edge [m]
+  UninitialisedVector<Placed> placed_;    // in the order of the BoxView
+  UninitialisedVector<float> size_;       // longest edge [m]
   std::vector<std::uint32_t> histogram_;  // of sizes, eight bins an octave
   std::uint32_t first_bin_ = 0;           // of the finest level
   std::array<grid::Level, kLevels> levels_;
   std::size_t level_count_ = 0;
-  std::vector<Extents> extents_;  // by chunk
-  std::vector<std::uint32_t> item_cell_;
-  std::vector<std::uint32_t> cell_begin_;  // first sorted item of each cell, and one more
-  std::vector<Item> sorted_;
-  std::vector<Pairs> chunk_pairs_;
+  std::vector<Extents> extents_;              // by chunk
+  std::vector<std::uint32_t> cell_begin_;     // first sorted item of each cell, and one more
+  UninitialisedVector<std::uint32_t> order_;  // box of each sorted item
+  UninitialisedVector<Item> sorted_;
+  UninitialisedVector<std::uint32_t> sorted_cell_;
+  grid::Balls balls_;         // of the sorted items
+  std::vector<Found> found_;  // by chunk
 };
 
 }  // namespace scree

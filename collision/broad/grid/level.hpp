@@ -54,6 +54,7 @@ struct Level {
     constexpr double kFarthest = 1e9;
     return static_cast<std::int32_t>(std::floor(std::clamp(x * inverse_cell, -kFarthest, kFarthest)));
   }
+  [[nodiscard]] bool is_wrapped() const { return axis[0].wrapped || axis[1].wrapped || axis[2].wrapped; }
   [[nodiscard]] std::uint32_t cell_count() const {
     return static_cast<std::uint32_t>(axis[0].stored) * static_cast<std::uint32_t>(axis[1].stored) *
            static_cast<std::uint32_t>(axis[2].stored);

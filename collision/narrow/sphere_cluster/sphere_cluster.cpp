@@ -166,7 +166,12 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
   using namespace sphere_cluster;
   Scratch scratch;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (k + kPrefetch < pairs.size()) __builtin_prefetch(&colliders.ball[pairs[k + kPrefetch].b]);
+    if (k + kPrefetch < pairs.size()) {
+      const ColliderIndex ahead = pairs[k + kPrefetch].b;
+      __builtin_prefetch(&colliders.ball[ahead]);
+      __builtin_prefetch(&colliders.body[ahead]);
+      __builtin_prefetch(&colliders.ordinal[ahead]);
+    }
     const ColliderPair& pair = pairs[k];
     if (colliders.kind[pair.a] == ShapeKind::sphere && colliders.kind[pair.b] == ShapeKind::sphere) {
       ContactWriter write{colliders, pair, false, out};

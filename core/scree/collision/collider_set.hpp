@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "scree/base/uninitialised.hpp"
 #include "scree/collision/collider.hpp"
 #include "scree/interfaces/broad_phase.hpp"
 
@@ -53,6 +54,16 @@ struct ReachRule {
           {m.centre.x + std::max(0.0, way.x) + grown, m.centre.y + std::max(0.0, way.y) + grown,
            m.centre.z + std::max(0.0, way.z) + grown}};
 }
+/// The bounding ball grown by all its motion, in whatever direction, and by its half of the slack [m]: two colliders whose
+/// grown balls are apart do not meet within the step. For spheres, reach_of_spheres() says no less.
+[[nodiscard]] inline BoundingBall grown_ball(const ColliderMotion& m, const ReachRule& rule) {
+  return {m.centre, m.radius + rule.dt * norm(m.velocity) + 0.5 * rule.slack * m.radius};
+}
+/// True when two balls share a point.
+[[nodiscard]] inline bool balls_meet(const BoundingBall& a, const BoundingBall& b) {
+  const double radii = a.radius + b.radius;
+  return squared_norm(b.centre - a.centre) <= radii * radii;
+}
 
 /// The colliders of one step. All buffers are kept between steps.
 class ColliderSet {
@@ -65,9 +76,14 @@ class ColliderSet {
   [[nodiscard]] ColliderView view() const;
   [[nodiscard]] std::size_t size() const { return key_.size(); }
   [[nodiscard]] std::span<const ColliderMotion> motion() const { return motion_; }
-  [[nodiscard]] std::span<const ColliderSpin> spin() const { return spin_; }
-  /// Boxes without the step's motion [m], world.
-  [[nodiscard]] std::span<const Aabb> tight_box() const { return tight_; }
+  [[nodiscard]] ColliderSpin spin(ColliderIndex i) const {
+    return kind_[i] == ShapeKind::sphere ? ColliderSpin{} : spin_[i];
+  }
+  /// The box of a collider without the step's motion [m], world.
+  [[nodiscard]] Aabb tight_box(ColliderIndex i) const {
+    if (kind_[i] != ShapeKind::sphere) return tight_[i];
+    return expanded(Aabb{ball_[i].centre, ball_[i].centre}, ball_[i].radius);
+  }
 
   /// The bounded colliders, for the broad phase. Their indices are translated
   /// by bounded_index().
@@ -75,37 +91,58 @@ class ColliderSet {
   [[nodiscard]] ColliderIndex bounded_index(ColliderIndex i) const { return all_bounded_ ? i : bounded_[i]; }
   /// Frees what only bounded() returns.
   void release_bounded();
+  /// Frees all that belongs to the step.
+  void release_step();
   /// Colliders without bounds: planes.
   [[nodiscard]] std::span<const ColliderIndex> unbounded() const { return unbounded_; }
 
  private:
+  /// What placing needs to know of a shape, in little memory: grains with shapes of their own are many.
+  struct ShapeRecord {
+    double radius = 0.0;  // of the sphere, if single [m]
+    std::uint32_t first_primitive = 0;
+    std::uint16_t colliders = 0;
+    std::uint8_t planes = 0;
+    std::uint8_t single_sphere = 0;  // one primitive, a sphere at the body's origin
+  };
+  static_assert(sizeof(ShapeRecord) == 16);
+
+  void note_new_shapes(const ShapeSet& shapes);
   void count(const ShapeSet& shapes, const BodyView& bodies);
+  void make_step_room(std::uint32_t total);
+  void place_spheres(const BodyView& bodies, std::size_t first, std::size_t last, std::span<const Vec3> velocity,
+                     const ReachRule& rule);
   void place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity, const Vec3& spin,
              const ReachRule& rule);
+  void bound(std::uint32_t at, const Aabb& box, const ReachRule& rule);
   void place_bounded(std::uint32_t at, std::uint32_t bounded_at);
 
-  std::vector<std::uint32_t> first_;          // collider of each body, one more at the end
-  std::vector<std::uint32_t> first_bounded_;  // the same among the bounded ones
-  std::vector<std::uint64_t> key_;
-  std::vector<BodyIndex> body_;
-  std::vector<std::uint32_t> primitive_;
-  std::vector<std::uint32_t> ordinal_;
-  std::vector<Pose> pose_;
-  std::vector<Aabb> box_;
-  std::vector<Aabb> tight_;
-  std::vector<char> movable_;
-  std::vector<ShapeKind> kind_;
-  std::vector<BoundingBall> ball_;
-  std::vector<ColliderMotion> motion_;
-  std::vector<ColliderSpin> spin_;
+  std::vector<ShapeRecord> shapes_;                   // of all shapes so far
+  bool all_spheres_ = true;                           // single ones, all bodies of the step
+  UninitialisedVector<std::uint32_t> first_;          // collider of each body, one more at the end
+  UninitialisedVector<std::uint32_t> first_bounded_;  // the same among the bounded ones
+  UninitialisedVector<std::uint64_t> key_;
+  UninitialisedVector<BodyIndex> body_;
+  UninitialisedVector<std::uint32_t> primitive_;
+  UninitialisedVector<std::uint32_t> ordinal_;
+  UninitialisedVector<Pose> pose_;
+  UninitialisedVector<Aabb> box_;
+  UninitialisedVector<Aabb> tight_;  // of what is no sphere; empty when all are
+  UninitialisedVector<char> movable_;
+  UninitialisedVector<ShapeKind> kind_;
+  UninitialisedVector<BoundingBall> ball_;
+  UninitialisedVector<ColliderMotion> motion_;
+  UninitialisedVector<ColliderSpin> spin_;  // as tight_
+  UninitialisedVector<BoundingBall> grown_;
 
   bool all_bounded_ = true;
   std::vector<ColliderIndex> unbounded_;
-  std::vector<ColliderIndex> bounded_;
-  std::vector<std::uint64_t> bounded_key_;
-  std::vector<Aabb> bounded_box_;
-  std::vector<char> bounded_movable_;
-  std::vector<std::uint32_t> bounded_owner_;
+  UninitialisedVector<ColliderIndex> bounded_;
+  UninitialisedVector<std::uint64_t> bounded_key_;
+  UninitialisedVector<Aabb> bounded_box_;
+  UninitialisedVector<char> bounded_movable_;
+  UninitialisedVector<std::uint32_t> bounded_owner_;
+  UninitialisedVector<BoundingBall> bounded_grown_;
 };
 
 }  // namespace scree

@@ -117,9 +117,7 @@ void CollisionPipeline::check_support(const BodyView& bodies) const {
 
 void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const {
   const auto motion = colliders_.motion();
-  const auto spin = colliders_.spin();
   const auto box = colliders_.view().box;
-  const auto tight = colliders_.tight_box();
   const bool filtered = filter_.is_active();
   for (std::size_t k = first; k < last; ++k) {
     if (k + kPrefetch < last) {
@@ -137,12 +135,19 @@ void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::v
     // Boxes of spheres are cheaper to compute than to read.
     if (ma.kind == ShapeKind::sphere && mb.kind == ShapeKind::sphere) {
       const double reach = reach_of_spheres(ma, mb, rule_);
+      // Of spheres that overlap, by more than rounding, the boxes do.
+      const double touching = (1.0 - 1e-9) * (ma.radius + mb.radius);
+      if (squared_norm(mb.centre - ma.centre) <= touching * touching) {
+        out.push_back({a, b, reach});
+        continue;
+      }
       if (!spheres_meet(ma, mb, reach)) continue;
       if (overlap(swept_sphere(ma, rule_), swept_sphere(mb, rule_))) out.push_back({a, b, reach});
     } else {
-      const double reach = reach_of(ma, spin[a], mb, spin[b], rule_);
-      if (!spheres_meet(ma, mb, reach) || !overlap(box[a], box[b])) continue;
-      if (overlap(expanded(tight[a], reach), tight[b])) out.push_back({a, b, reach});
+      const double reach = reach_of(ma, colliders_.spin(a), mb, colliders_.spin(b), rule_);
+      if (!spheres_meet(ma, mb, reach) || !balls_meet(grown_ball(ma, rule_), grown_ball(mb, rule_))) continue;
+      if (!overlap(box[a], box[b])) continue;
+      if (overlap(expanded(colliders_.tight_box(a), reach), colliders_.tight_box(b))) out.push_back({a, b, reach});
     }
   }
 }
@@ -151,7 +156,6 @@ void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::size_t first, s
                                        std::vector<ColliderPair>& out) const {
   const ColliderView view = colliders_.view();
   const auto motion = colliders_.motion();
-  const auto spin = colliders_.spin();
   const Pose& pose = view.pose[plane];
   const Vec3 normal = rotate(pose.orientation, {0, 0, 1});
   const bool filtered = filter_.is_active();
@@ -159,7 +163,7 @@ void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::size_t first, s
     if (!motion[other].movable && !motion[plane].movable) continue;
     if (motion[other].kind == ShapeKind::plane || motion[other].body == motion[plane].body) continue;
     if (filtered && !filter_.allows(motion[other].body, motion[plane].body)) continue;
-    const double reach = reach_of(motion[other], spin[other], motion[plane], spin[plane], rule_);
+    const double reach = reach_of(motion[other], colliders_.spin(other), motion[plane], colliders_.spin(plane), rule_);
     const double height = dot(normal, motion[other].centre - pose.position);
     // Written so that a collider with NaN meets nothing.
     if (!(height - motion[other].radius <= reach)) continue;
@@ -215,52 +219,61 @@ void CollisionPipeline::collide(std::span<const ColliderPair> pairs, ContactBuff
   }
 }
 
-void CollisionPipeline::find_contacts() {
-  const std::size_t chunks = Executor::chunk_count(pairs_.size(), kPairsPerChunk);
-  if (chunk_contacts_.size() < chunks) chunk_contacts_.resize(chunks);
-  executor_.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
-    chunk_contacts_[chunk].clear();
-    const std::size_t first = chunk * kPairsPerChunk;
-    const std::size_t pairs = std::min(kPairsPerChunk, pairs_.size() - first);
+std::span<const Contact> CollisionPipeline::find_contacts() {
+  std::span<const Contact> found;
+  if (executor_.threads() == 1) {
+    contacts_.clear();
     // Most pairs have one contact.
-    chunk_contacts_[chunk].reserve(pairs);
-    collide(pairs_.subspan(first, pairs), chunk_contacts_[chunk]);
-  });
+    contacts_.reserve(pairs_.size());
+    collide(pairs_, contacts_);
+    found = contacts_;
+  } else {
+    const std::size_t chunks = Executor::chunk_count(pairs_.size(), kPairsPerChunk);
+    if (chunk_contacts_.size() < chunks) chunk_contacts_.resize(chunks);
+    executor_.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
+      chunk_contacts_[chunk].clear();
+      const std::size_t first = chunk * kPairsPerChunk;
+      const std::size_t pairs = std::min(kPairsPerChunk, pairs_.size() - first);
+      chunk_contacts_[chunk].reserve(pairs);
+      collide(pairs_.subspan(first, pairs), chunk_contacts_[chunk]);
+    });
+    found = join_contacts(chunks);
+  }
   if (large_) {
     pairs_ = {};
     sorter_.release_buffers();
-    colliders_ = {};
+    colliders_.release_step();
+    release(chunk_contacts_);
   }
-  join_contacts(chunks);
+  counts_.contacts = found.size();
+  return found;
 }
 
-void CollisionPipeline::join_contacts(std::size_t chunks) {
+std::span<const Contact> CollisionPipeline::join_contacts(std::size_t chunks) {
   chunk_offset_.resize(chunks + 1);
   chunk_offset_[0] = 0;
   for (std::size_t k = 0; k < chunks; ++k) chunk_offset_[k + 1] = chunk_offset_[k] + chunk_contacts_[k].size();
-  contacts_.resize(chunk_offset_[chunks]);
+  joined_contacts_.resize(chunk_offset_[chunks]);
   executor_.for_chunks(chunks, 8, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       std::copy(chunk_contacts_[k].begin(), chunk_contacts_[k].end(),
-                contacts_.begin() + static_cast<std::ptrdiff_t>(chunk_offset_[k]));
+                joined_contacts_.begin() + static_cast<std::ptrdiff_t>(chunk_offset_[k]));
     }
   });
-  if (large_) release(chunk_contacts_);
-  counts_.contacts = contacts_.size();
+  return joined_contacts_;
 }
 
 std::span<const Contact> CollisionPipeline::find(const BodyView& bodies, std::span<const Vec3> velocity,
                                                  std::span<const Vec3> angular_velocity, double dt) {
   bind_new_shapes();
   large_ = bodies.size() >= kManyRecords;
-  if (large_) release(contacts_);
+  if (large_) release(contacts_, joined_contacts_);
   rule_ = {dt, settings_.reach_slack};
   if (filter_.is_active()) filter_.look_up(bodies);
   colliders_.build(shapes_, bodies, velocity, angular_velocity, rule_, executor_);
   counts_ = {colliders_.size(), 0, 0, 0};
   find_pairs(bodies.size());
-  find_contacts();
-  return contacts_;
+  return find_contacts();
 }
 
 }  // namespace scree

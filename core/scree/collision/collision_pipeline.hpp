@@ -66,8 +66,8 @@ class CollisionPipeline {
   void pair_unbounded(ColliderIndex plane, std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const;
   void find_pairs(std::size_t body_count);
   void collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const;
-  void find_contacts();
-  void join_contacts(std::size_t chunks);
+  std::span<const Contact> find_contacts();
+  std::span<const Contact> join_contacts(std::size_t chunks);
 
   const ShapeSet& shapes_;
   BroadPhase& broad_;
@@ -87,7 +87,8 @@ class CollisionPipeline {
   std::span<const ColliderPair> pairs_;
   std::vector<ContactBuffer> chunk_contacts_;
   std::vector<std::size_t> chunk_offset_;
-  std::vector<Contact> contacts_;
+  ContactBuffer contacts_;                        // of one thread
+  UninitialisedVector<Contact> joined_contacts_;  // of several
   CollisionCounts counts_;
   bool large_ = false;  ///< buffers are freed as soon as nobody reads them any more
 };

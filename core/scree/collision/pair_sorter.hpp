@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "scree/base/uninitialised.hpp"
 #include "scree/collision/collider.hpp"
 
 namespace scree {
@@ -24,8 +25,14 @@ class PairSorter {
   void release_buffers();
 
  private:
+  template <class BodyOf>
+  void count_and_scatter(std::span<const std::vector<ColliderPair>> parts, std::size_t body_count,
+                         const BodyOf& body_of);
+  template <class Less>
+  void sort_bodies(std::size_t body_count, const Less& less, const Executor& executor);
+
   std::vector<std::uint32_t> first_;  // pair of each body a
-  std::vector<ColliderPair> sorted_;
+  UninitialisedVector<ColliderPair> sorted_;
 };
 
 }  // namespace scree

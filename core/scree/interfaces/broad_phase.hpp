@@ -18,6 +18,8 @@ struct BoxView {
   std::span<const Aabb> box;             ///< bounded boxes [m], world
   std::span<const char> movable;         ///< pairs of two unmovable boxes are not wanted
   std::span<const std::uint32_t> owner;  ///< pairs of the same owner (body) are not wanted
+  /// Balls that hold what can meet within the step; empty, or one a box: a pair whose balls are apart may be left out.
+  std::span<const BoundingBall> ball = {};
 
   [[nodiscard]] std::size_t size() const { return key.size(); }
 };
@@ -30,8 +32,8 @@ class BroadPhase : public Plugin {
   static constexpr const char* kKind = "broad_phase";
   ~BroadPhase() override;
 
-  /// Appends every pair of boxes that overlap (touching counts), each index
-  /// into `boxes`, to `out`, at least once.
+  /// Appends every pair of boxes that overlap (touching counts) and whose balls do, if there are balls, each index into
+  /// `boxes`, to `out`, at least once.
   virtual void find_pairs(const BoxView& boxes, const Executor& executor, std::vector<CandidatePair>& out) = 0;
 };
 

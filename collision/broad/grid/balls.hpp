@@ -1,0 +1,121 @@
+// Balls: the balls of sorted boxes, side by side, so that one ball is compared with eight others at a time.
+#pragma once
+
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "scree/base/uninitialised.hpp"
+#include "scree/collision/collider.hpp"
+
+namespace scree::grid {
+
+/// In single precision, about the grid's origin [m]; grown by more than its rounding.
+struct Ball {
+  float x = 0.0f, y = 0.0f, z = 0.0f, r = 0.0f;
+
+  Ball() = default;
+  Ball(const Vec3& centre, double radius)
+      : x{static_cast<float>(centre.x)}, y{static_cast<float>(centre.y)}, z{static_cast<float>(centre.z)} {
+    // Rounding of coordinates, of their differences and of the squares: below 8 units in the last place, 6e-8 each.
+    constexpr double kGrowth = 5e-7;
+    const double far = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z);
+    r = static_cast<float>(radius * (1.0 + kGrowth) + kGrowth * far + 1e-30);
+  }
+};
+
+/// A list of balls.
+class Balls {
+ public:
+  static constexpr std::size_t kLanes = 8;
+
+  void resize(std::size_t n) {
+    for (auto* column : {&x_, &y_, &z_, &r_}) column->resize(n + kLanes);  // a load may read beyond the last one
+  }
+  void set(std::size_t i, const Ball& ball) {
+    x_[i] = ball.x;
+    y_[i] = ball.y;
+    z_[i] = ball.z;
+    r_[i] = ball.r;
+  }
+  void release() {
+    for (auto* column : {&x_, &y_, &z_, &r_}) UninitialisedVector<float>{}.swap(*column);
+  }
+
+  /// Two sorted items whose balls meet.
+  struct Near {
+    std::uint32_t one, other;
+  };
+  /// Writes the pairs of i with those of first..last-1 that it meets to `near`, which has room for kLanes more than that, and
+  /// returns how many. What is not a number meets all.
+  std::size_t meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const;
+
+ private:
+  UninitialisedVector<float> x_, y_, z_, r_;
+};
+
+#ifdef __AVX2__
+
+/// For each set of lanes, the lanes in order, at the front.
+alignas(32) inline constexpr auto kFrontLanes = [] {
+  std::array<std::array<std::uint32_t, 8>, 256> table{};
+  for (std::uint32_t set = 0; set < 256; ++set) {
+    std::uint32_t count = 0;
+    for (std::uint32_t lane = 0; lane < 8; ++lane) {
+      if ((set >> lane & 1u) != 0) table[set][count++] = lane;
+    }
+  }
+  return table;
+}();
+
+inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const {
+  const __m256 x = _mm256_set1_ps(x_[i]), y = _mm256_set1_ps(y_[i]), z = _mm256_set1_ps(z_[i]);
+  const __m256 r = _mm256_set1_ps(r_[i]);
+  const __m256i one = _mm256_set1_epi32(static_cast<int>(i));
+  std::size_t count = 0;
+  std::uint32_t k = first;
+  // Most ranges fit into one round; it is done in any case, so that nothing has to be guessed.
+  do {
+    const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(&x_[k]), x), dy = _mm256_sub_ps(_mm256_loadu_ps(&y_[k]), y);
+    const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(&z_[k]), z), radii = _mm256_add_ps(_mm256_loadu_ps(&r_[k]), r);
+    const __m256 squares =
+        _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
+    const int hits = _mm256_movemask_ps(_mm256_cmp_ps(squares, _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
+    const std::uint32_t left = std::min(last > k ? last - k : 0u, 8u);
+    const std::uint32_t meet = static_cast<std::uint32_t>(hits) & ((1u << left) - 1u);
+    const __m256i front = _mm256_load_si256(reinterpret_cast<const __m256i*>(kFrontLanes[meet].data()));
+    const __m256i other = _mm256_add_epi32(front, _mm256_set1_epi32(static_cast<int>(k)));
+    // Pairs (one, other): lanes 0 1 4 5, then 2 3 6 7.
+    const __m256i low = _mm256_unpacklo_epi32(one, other), high = _mm256_unpackhi_epi32(one, other);
+    auto* const out = reinterpret_cast<__m256i*>(near + count);
+    _mm256_storeu_si256(out, _mm256_permute2x128_si256(low, high, 0x20));
+    _mm256_storeu_si256(out + 1, _mm256_permute2x128_si256(low, high, 0x31));
+    count += static_cast<std::size_t>(std::popcount(meet));
+    k += kLanes;
+  } while (k < last);
+  return count;
+}
+
+#else
+
+inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const {
+  std::size_t count = 0;
+  for (std::uint32_t k = first; k < last; ++k) {
+    const float dx = x_[k] - x_[i], dy = y_[k] - y_[i], dz = z_[k] - z_[i], radii = r_[k] + r_[i];
+    near[count] = {i, k};  // overwritten by the next one unless it counts
+    count += static_cast<std::size_t>(!(dx * dx + dy * dy + dz * dz > radii * radii));
+  }
+  return count;
+}
+
+#endif
+
+}  // namespace scree::grid
