@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "run_to.hpp"
 #include "scree/base/error.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 #include "scree/simulation/simulation.hpp"
@@ -26,16 +26,7 @@ CcpRecording::CcpRecording(const Simulation& simulation, const std::vector<doubl
   if (!times.empty() && std::none_of(parts.begin(), parts.end(), is_solver)) {
     throw usage(option, "the scene has no [ccp_solver] and poses no contact problem");
   }
-  const double h = simulation.time_step();
-  for (const double time : times) {
-    // Half a step of slack, as at the end of a run.
-    if (time > simulation.end_time() + 0.5 * h || time < simulation.time() + 0.5 * h) {
-      throw usage(option, fmt::format("there is no step at {:.6g} s: this run goes from {:.6g} s to {:.6g} s in steps "
-                                      "of {:.6g} s",
-                                      time, simulation.time(), simulation.end_time(), h));
-    }
-    steps_.insert(static_cast<std::uint64_t>(std::llround(time / h)));
-  }
+  for (const double time : times) steps_.insert(step_at(time, simulation, option));
 }
 
 void CcpRecording::before_step(Simulation& simulation) const {

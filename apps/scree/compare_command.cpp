@@ -18,6 +18,7 @@ Error vary_error(const std::string& sentence) { return Error{ErrorKind::usage, {
 
 /// "ccp_solver=pgs,apgd" into its words.
 void parse_vary(const std::string& text, CompareOptions& options) {
+  options.values.clear();
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw vary_error("'" + text + "' does not say what to exchange for what; write for example ccp_solver=pgs,apgd");
@@ -39,12 +40,25 @@ void parse_vary(const std::string& text, CompareOptions& options) {
 
 /// Words of the command line that are more than text.
 struct CompareWords {
-  std::string vary;
+  std::vector<std::string> vary;
   std::vector<std::string> at;
 };
 
+/// All words of --vary. Collision phases may stand side by side; anything else stands alone.
+void parse_all_vary(const std::vector<std::string>& words, CompareOptions& options) {
+  for (const std::string& text : words) {
+    parse_vary(text, options);
+    if (options.vary == "broad_phase") options.broad_phases = options.values;
+    if (options.vary == "narrow_phase") options.narrow_phases = options.values;
+    const bool phases = options.vary == "broad_phase" || options.vary == "narrow_phase";
+    if (!phases && words.size() > 1) {
+      throw vary_error("only broad_phase and narrow_phase can be varied together; give '" + text + "' alone");
+    }
+  }
+}
+
 int compare(CompareOptions options, const CompareWords& words) {
-  parse_vary(words.vary, options);
+  parse_all_vary(words.vary, options);
   options.times = parse_times(words.at, "--at");
   options.scene = scene_file(options.scene);
   if (options.output.empty()) options.output = default_output(options.scene, ".scree-comparison");
@@ -54,6 +68,7 @@ int compare(CompareOptions options, const CompareWords& words) {
     throw vary_error("--solver-set, --tolerance and --max-iterations go with --vary ccp_solver=...; use --set for '" +
                      options.vary + "'");
   }
+  if (!options.broad_phases.empty() || !options.narrow_phases.empty()) return compare_phases(options);
   return compare_runs(options);
 }
 
@@ -61,9 +76,11 @@ void add_options(CLI::App& command, CompareOptions& options, CompareWords& words
   command.add_option("scene", options.scene, "The scene")->required()->type_name("SCENE.toml");
   command
       .add_option("--vary", words.vary,
-                  "What to exchange: ccp_solver=pgs,apgd gives one problem to several solvers; broad_phase=A,B or a "
+                  "What to exchange: ccp_solver=pgs,apgd gives one problem to several solvers; broad_phase=A,B and "
+                  "narrow_phase=A+B,C (a chain, or several) give the bodies of one moment to collision phases; a "
                   "setting such as simulation.time_step=A,B runs the scene for each")
       ->required()
+      ->allow_extra_args(false)
       ->type_name("WHAT=A,B");
   command.add_option("--at", words.at, "Compare at these times [the scene's end]")
       ->type_name("T,...")
@@ -99,7 +116,8 @@ void add_compare_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CompareOptions>();
   const auto words = std::make_shared<CompareWords>();
   options->threads = 0;
-  CLI::App* command = app.add_subcommand("compare", "Compare solvers on the same problems, or whole runs");
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare solvers or collision phases on the same state, or whole runs");
   add_options(*command, *options, *words);
   command->final_callback([options, words, &exit_code] { exit_code = compare(*options, *words); });
 }

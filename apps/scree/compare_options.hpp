@@ -16,6 +16,8 @@ struct CompareOptions {
   std::vector<std::string> plugin_dirs;      ///< searched before all others
   std::string vary;                          ///< what differs: a section of the scene, or a setting "section.key"
   std::vector<std::string> values;           ///< of what differs
+  std::vector<std::string> broad_phases;     ///< to try; empty for the scene's
+  std::vector<std::string> narrow_phases;    ///< chains to try, "a+b"; empty for the scene's
   std::vector<double> times;                 ///< [s]; empty for the end of the scene
   std::vector<std::string> solver_settings;  ///< "solver.key=value"
   std::optional<double> tolerance;           ///< of the solvers [m/s]; else the scene's
@@ -29,6 +31,10 @@ struct CompareOptions {
 /// Prints a table; writes comparison.csv, convergence.csv, the problems and plots. Returns the exit code.
 /// @throws Error.
 [[nodiscard]] int compare_solvers(const CompareOptions& options);
+
+/// Runs the scene to the times asked for, and gives the bodies of these moments to every broad phase with every chain of
+/// narrow phases. Prints a table; writes comparison.csv and a plot. Returns the exit code. @throws Error.
+[[nodiscard]] int compare_phases(const CompareOptions& options);
 
 /// Runs the whole scene once for every value. Prints a table; writes comparison.csv. Returns the exit code.
 /// @throws Error.

@@ -1,4 +1,4 @@
-// scree compare --vary broad_phase=..., --vary section.key=...: the whole scene, once for every value.
+// scree compare --vary time_stepper=..., --vary section.key=...: the whole scene, once for every value.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,6 +42,7 @@ std::vector<std::string> exchangeable_sections() {
   for (const SceneSection& section : scene_sections()) {
     if (section.form == SectionForm::at_most_one_plugin) names.emplace_back(section.name);
   }
+  names.emplace_back("narrow_phase");
   return names;
 }
 

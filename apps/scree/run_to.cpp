@@ -1,5 +1,9 @@
 #include "run_to.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include <chrono>
 
 #include "interrupt.hpp"
@@ -23,6 +27,18 @@ bool run_to(Simulation& simulation, std::uint64_t steps, bool quiet, const std::
   }
   progress.end_line();
   return simulation.steps() >= steps;
+}
+
+std::uint64_t step_at(double time, const Simulation& simulation, const std::string& option) {
+  const double h = simulation.time_step();
+  if (time > simulation.end_time() + 0.5 * h || time < simulation.time() + 0.5 * h) {
+    throw Error{
+        ErrorKind::usage,
+        {option, 0, 0},
+        fmt::format("there is no step at {:.6g} s: this run goes from {:.6g} s to {:.6g} s in steps of {:.6g} s", time,
+                    simulation.time(), simulation.end_time(), h)};
+  }
+  return static_cast<std::uint64_t>(std::llround(time / h));
 }
 
 }  // namespace scree

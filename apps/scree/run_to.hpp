@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace scree {
 
@@ -13,5 +14,9 @@ struct StepRecord;
 /// interrupt ended it. @throws Error as Simulation::step() does.
 bool run_to(Simulation& simulation, std::uint64_t steps, bool quiet, const std::function<void()>& before_step,
             const std::function<void(const StepRecord&)>& after_step);
+
+/// The step of `simulation`, not taken yet, that ends at `time` [s], half a step of slack. @throws Error (usage) that names
+/// `option` when the run has none.
+[[nodiscard]] std::uint64_t step_at(double time, const Simulation& simulation, const std::string& option);
 
 }  // namespace scree

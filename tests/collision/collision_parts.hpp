@@ -14,15 +14,20 @@
 
 namespace scree::test {
 
-/// The plugin of that name, from the folder that the build put them in, with all its defaults.
-template <class Interface>
-std::unique_ptr<Interface> make_plugin(const std::string& name) {
+/// All plugins in the folder that the build put them in.
+inline PluginHost& plugin_host() {
   static PluginHost* const host = [] {
     auto* made = new PluginHost;  // plugins are never unloaded
     made->search(SCREE_PLUGINS);
     return made;
   }();
-  auto plugin = host->entry(Interface::kKind, name, {}).make(Options{});
+  return *host;
+}
+
+/// The plugin of that name, with all its defaults.
+template <class Interface>
+std::unique_ptr<Interface> make_plugin(const std::string& name) {
+  auto plugin = plugin_host().entry(Interface::kKind, name, {}).make(Options{});
   return std::unique_ptr<Interface>{dynamic_cast<Interface*>(plugin.release())};
 }
 

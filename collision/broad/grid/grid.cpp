@@ -269,6 +269,7 @@ void Grid::search_rows(std::uint32_t i, const Rows& rows, Found& found) const {
 
 void Grid::search(std::size_t first, std::size_t last, Found& found) const {
   found.near_count = 0;
+  found.make_room(4 * (last - first));
   std::size_t own = 0;
   Rows rows;
   for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {

@@ -194,7 +194,9 @@ void CollisionPipeline::find_pairs(std::size_t body_count) {
       return pair_unbounded(planes[(part - chunks) / plane_chunks], begin, end, out);
     }
     const std::size_t first = part * kCandidatesPerChunk;
-    keep_meeting(first, std::min(candidates_.size(), first + kCandidatesPerChunk), out);
+    const std::size_t last = std::min(candidates_.size(), first + kCandidatesPerChunk);
+    if (large_) out.reserve(last - first);
+    keep_meeting(first, last, out);
   });
   if (large_) release(candidates_);
   pairs_ = sorter_.sort(std::span{chunk_pairs_}.first(parts), colliders_.view().body, body_count, executor_);

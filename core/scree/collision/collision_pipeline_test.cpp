@@ -115,6 +115,41 @@ TEST(CollisionPipeline, reach_is_relative_motion) {
   EXPECT_DOUBLE_EQ(contacts[2].gap, 0.05) << "|(3, -4)| m/s for 0.01 s";
 }
 
+// Law: grains at rest have the pairs whose gap is below the slack, whether or not a fast one flies through them and plates
+// stand by; the fast one adds no more than what lies in the box that it sweeps.
+TEST(CollisionPipeline, slow_grains_pay_nothing_for_a_fast_one) {
+  Scene scene;
+  CollisionPipeline pipeline{scene.shapes, scene.broad, {&scene.narrow}, scene.executor};
+  const auto pairs = [&] {
+    const BodyView view = scene.bodies.view();
+    static_cast<void>(pipeline.find(view, view.velocity, view.angular_velocity, 1e-3));
+    return pipeline.counts().pairs;
+  };
+  constexpr double kRadius = 1e-3, kSpeed = 10.0;
+  std::vector<Vec3> places;
+  for (int x = 0; x < 8; ++x) {
+    for (int y = 0; y < 8; ++y) {
+      for (int z = 0; z < 8; ++z) places.push_back(2.0005e-3 * Vec3{double(x), double(y), double(z)});
+    }
+  }
+  for (const Vec3& at : places) scene.add(ball(kRadius), at);
+  // The next grain is 5e-7 m away, half of the slack.
+  const std::size_t rest = pairs();
+  EXPECT_EQ(rest, 3u * 7u * 8u * 8u);
+  scene.add(shape_data(primitive_data(ShapeKind::box, {0.1, 0.1, 5e-4})), {0, 0, -4e-3}, {}, {}, Motion::fixed);
+  EXPECT_EQ(pairs(), rest) << "a plate 2.5 mm below grains at rest costs nothing";
+  const Vec3 from{-6e-3, 7e-3, 7e-3};
+  scene.add(ball(kRadius), from, {kSpeed, 0, 0});
+  const Aabb swept{from - 1.01 * Vec3{kRadius, kRadius, kRadius},
+                   from + 1.01 * Vec3{kRadius, kRadius, kRadius} + Vec3{1e-3 * kSpeed, 0, 0}};
+  const auto in_the_way = std::count_if(places.begin(), places.end(), [&](const Vec3& at) {
+    return overlap(swept, expanded(Aabb{at, at}, 1.01 * kRadius));
+  });
+  const std::size_t with_fast = pairs();
+  EXPECT_GT(with_fast, rest);
+  EXPECT_LE(with_fast, rest + static_cast<std::size_t>(in_the_way));
+}
+
 // Law: a grain that a turning drum carries moves with it: no reach; a grain at rest beside it gets what the drum's surface
 // does at its place.
 TEST(CollisionPipeline, turning_bodies_carry_their_neighbours) {

@@ -205,6 +205,8 @@ bool Simulation::is_done() const { return state_->steps >= state_->last_step; }
 std::uint64_t Simulation::state_hash() const { return state_->bodies.hash(); }
 const BodyStore& Simulation::bodies() const { return state_->bodies; }
 const Materials& Simulation::materials() const { return state_->model.materials; }
+const ShapeSet& Simulation::shapes() const { return state_->model.shapes; }
+const CollisionFilter& Simulation::collision_filter() const { return state_->pipeline->filter(); }
 const FeedRecord& Simulation::feed() const { return state_->feed; }
 PhaseTimer& Simulation::timer() { return state_->timer; }
 const std::vector<RemovedBody>& Simulation::removed() const { return state_->removed; }

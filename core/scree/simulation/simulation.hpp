@@ -25,9 +25,11 @@
 namespace scree {
 
 class BodyStore;
+class CollisionFilter;
 class Materials;
 class PluginCatalog;
 class SceneDocument;
+class ShapeSet;
 
 /// What a run is asked for beside the scene.
 struct SimulationSettings {
@@ -60,6 +62,9 @@ class Simulation {
   [[nodiscard]] std::uint64_t state_hash() const;
   [[nodiscard]] const BodyStore& bodies() const;
   [[nodiscard]] const Materials& materials() const;
+  [[nodiscard]] const ShapeSet& shapes() const;
+  /// Who meets whom.
+  [[nodiscard]] const CollisionFilter& collision_filter() const;
   [[nodiscard]] const FeedRecord& feed() const;
   [[nodiscard]] PhaseTimer& timer();
   /// Bodies taken out in the last step.
