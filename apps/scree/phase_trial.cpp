@@ -113,8 +113,7 @@ PhaseTrial try_phases(const PluginCatalog& catalog, const PhaseNames& names, Pha
   trial.counts = pipeline.counts();
   trial.contacts.assign(found.begin(), found.end());
   trial.first_frame = seconds[0];
-  std::sort(seconds.begin() + 1, seconds.end());
-  trial.frame = seconds[1 + (seconds.size() - 1) / 2];
+  trial.frame = *std::min_element(seconds.begin() + 1, seconds.end());
   for (const auto& phase : narrow) trial.fallbacks += phase->fallbacks();
   return trial;
 }

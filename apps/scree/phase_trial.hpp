@@ -41,7 +41,7 @@ struct PhaseTrial {
   PhaseNames names;
   CollisionCounts counts;
   double first_frame = 0.0;  ///< with empty memory [s]
-  double frame = 0.0;        ///< median of the following ones, in which bodies move by one step [s]
+  double frame = 0.0;        ///< fastest of the following ones, in which bodies move by one step [s]
   std::uint64_t fallbacks = 0;
   std::vector<Contact> contacts;
   ContactDifference difference;

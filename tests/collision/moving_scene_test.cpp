@@ -84,14 +84,18 @@ class MovingCloud {
   RandomNumbers random_{71};
 };
 
-// Law: whatever a broad phase keeps between steps, the contacts are those that comparing everything gives, frame by frame,
-// while bodies move, come and go.
+/// Frames between two in which everything is compared with everything: that takes as long as all the rest for 20 000 bodies.
+constexpr int kFramesOfBruteForce = 10;
+
+// Law: whatever a broad phase keeps between steps, it gives the same contacts as the others, frame by frame, while bodies
+// move, come and go; in every tenth frame these are shown to be what comparing everything gives. What a phase lost in
+// between and never got back would show there, and what it lost for a few frames beside the three others.
 TEST(MovingScene, every_broad_phase_gives_the_same_contacts) {
   const auto [count, frames] = extent();
   MovingCloud cloud{count};
   const Executor executor{2};
   const auto narrow = make_plugin<NarrowPhase>("sphere_cluster");
-  std::vector<std::string> names{"brute_force", "grid", "bullet_dbvt", "bullet_sap", "fcl_tree"};
+  std::vector<std::string> names{"grid", "bullet_dbvt", "bullet_sap", "fcl_tree", "brute_force"};
   std::vector<std::unique_ptr<BroadPhase>> phases;
   std::vector<std::unique_ptr<CollisionPipeline>> pipelines;
   for (const std::string& name : names) {
@@ -104,6 +108,7 @@ TEST(MovingScene, every_broad_phase_gives_the_same_contacts) {
     const BodyView view = cloud.bodies.view();
     std::vector<Contact> expected;
     for (std::size_t k = 0; k < names.size(); ++k) {
+      if (names[k] == "brute_force" && frame % kFramesOfBruteForce != 0) continue;
       const auto contacts = pipelines[k]->find(view, view.velocity, view.angular_velocity, 1e-3);
       if (k == 0) expected.assign(contacts.begin(), contacts.end());
       ASSERT_TRUE(same_bits(contacts, expected)) << names[k] << ", frame " << frame;
