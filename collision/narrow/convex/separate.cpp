@@ -134,7 +134,8 @@ std::optional<Separation> climb_from_best(const ConvexSolid& a, const ConvexSoli
   std::ranges::stable_sort(ranked, [](const auto& l, const auto& r) { return l.first > r.first; });
   std::vector<Vec3> climbed;
   std::optional<Separation> best;
-  for (const auto& [gap, n] : ranked) {
+  for (const auto& start : ranked) {
+    const Vec3& n = start.second;
     if (std::ranges::any_of(climbed, [&](const Vec3& other) { return dot(n, other) > kNextTo; })) continue;
     climbed.push_back(n);
     const std::optional<Separation> found = climb(a, b, n);
