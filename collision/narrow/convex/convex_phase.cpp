@@ -136,8 +136,7 @@ ConvexSolid ConvexPhase::patch(const Pair& pair, std::uint32_t primitive, const 
   if (meshes_[primitive] == nullptr) return made;
   static const FaceLoops none;
   std::ranges::sort(parts);
-  const auto doubles = std::ranges::unique(parts);
-  parts.erase(doubles.begin(), doubles.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   for (const std::uint32_t i : parts) {
     const auto& corner = meshes_[primitive]->triangle(i).corner;
     corners.insert(corners.end(), corner.begin(), corner.end());

@@ -175,8 +175,8 @@ void find_manifold(const ConvexSolid& a, const ConvexSolid& b, const Separation&
   if (out.empty() || deepest > found.gap + kTolerance) out.push_back({0, origin, found.gap});
   thin_out(frame, out);
   std::ranges::stable_sort(out, {}, &ManifoldPoint::feature);
-  const auto doubles = std::ranges::unique(out, {}, &ManifoldPoint::feature);
-  out.erase(doubles.begin(), doubles.end());
+  const auto same = [](const ManifoldPoint& l, const ManifoldPoint& r) { return l.feature == r.feature; };
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
 }
 
 }  // namespace scree::convex
