@@ -6,6 +6,7 @@
 
 #include "conformance/ccp_solver_case.hpp"
 #include "solver_by_name.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree::test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "scree/ccp/problem.hpp"
 #include "scree/ccp/twist.hpp"
-#include "scree/collision/contact.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree::test {
 
@@ -46,8 +46,7 @@ struct TestingProblem {
   /// Adds a contact with row constants `velocity` (normal, tangent 1, tangent 2).
   void add_contact(std::uint32_t a, std::uint32_t b, const Vec3& normal, const Vec3& arm_a, const Vec3& arm_b,
                    double friction, const Vec3& velocity) {
-    const ContactFrame frame = contact_frame(normal);
-    contacts.push_back({frame.normal, frame.tangent1, arm_a, arm_b, friction, a, b});
+    contacts.push_back({normal, arm_a, arm_b, friction, a, b});
     r.insert(r.end(), {velocity.x, velocity.y, velocity.z});
   }
   /// Adds a block with its Jacobian and row constants, after all contacts; its first row is filled in.
@@ -75,7 +74,7 @@ inline TestingProblem sphere_on_floor(double mass, double radius, double frictio
 inline std::vector<CcpRow> rows_at_a_point(std::size_t rows, bool cone, const Vec3& normal, const Vec3& arm_a,
                                            const Vec3& arm_b, double length) {
   const ContactFrame frame = contact_frame(normal);
-  const std::array<Vec3, 3> axes{frame.normal, frame.tangent1, cross(frame.normal, frame.tangent1)};
+  const std::array<Vec3, 3> axes{frame.normal, frame.tangent1, frame.tangent2};
   std::vector<CcpRow> out;
   for (std::size_t k = 0; k < std::min<std::size_t>(rows, 3); ++k) {
     out.push_back({{-axes[k], -cross(arm_a, axes[k])}, {axes[k], cross(arm_b, axes[k])}});

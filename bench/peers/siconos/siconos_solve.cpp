@@ -22,6 +22,7 @@
 #include "scree/ccp/ccp_file.hpp"
 #include "scree/ccp/guess.hpp"
 #include "scree/ccp/judge.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree {
 namespace {
@@ -48,7 +49,8 @@ struct Side {
 Side side_of(const CcpProblem& p, std::size_t i, bool second) {
   const CcpContact& c = p.contacts[i];
   const double sign = second ? 1.0 : -1.0;
-  Side side{i, {sign * c.normal, sign * c.tangent1, sign * cross(c.normal, c.tangent1)}, {}};
+  const ContactFrame frame = contact_frame(c.normal);
+  Side side{i, {sign * frame.normal, sign * frame.tangent1, sign * frame.tangent2}, {}};
   for (std::size_t k = 0; k < 3; ++k) side.angular[k] = cross(second ? c.arm_b : c.arm_a, side.linear[k]);
   return side;
 }

@@ -6,6 +6,7 @@
 // allocated in a step, and there is nothing to gain.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 namespace scree {
@@ -31,11 +32,12 @@ void make_room(std::size_t count, Buffers&... buffers) {
   (fit(buffers), ...);
 }
 
-/// Room for `count` items in buffers that are filled little by little and kept for a whole run: they grow by an eighth.
+/// Room for `count` items in buffers that are filled little by little and kept for a whole run: they grow by an eighth,
+/// or to what is asked for where that is more.
 template <class... Buffers>
 void grow_to(std::size_t count, Buffers&... buffers) {
   const auto fit = [count](auto& buffer) {
-    if (buffer.capacity() < count) buffer.reserve(count + count / 8);
+    if (buffer.capacity() < count) buffer.reserve(std::max(count, buffer.capacity() + buffer.capacity() / 8));
   };
   (fit(buffers), ...);
 }

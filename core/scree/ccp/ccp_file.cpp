@@ -76,14 +76,11 @@ void check_contact(const CcpRecord& record, std::size_t i, const Judgement& judg
     judgement.require(body < n, contact + " is on body " + std::to_string(body) + ", but there are only " +
                                     std::to_string(n) + " bodies, counted from 0");
   }
-  judgement.require(is_finite(c.normal) && is_finite(c.tangent1) && is_finite(c.arm_a) && is_finite(c.arm_b) &&
-                        std::isfinite(c.friction),
+  judgement.require(is_finite(c.normal) && is_finite(c.arm_a) && is_finite(c.arm_b) && std::isfinite(c.friction),
                     contact + " has a number that is not finite");
   judgement.require(c.friction >= 0.0, contact + " has a negative coefficient of friction");
-  judgement.require(std::abs(norm(c.normal) - 1.0) <= kDirectionError &&
-                        std::abs(norm(c.tangent1) - 1.0) <= kDirectionError &&
-                        std::abs(dot(c.normal, c.tangent1)) <= kDirectionError,
-                    contact + " has a normal and a tangent that are not perpendicular unit vectors");
+  judgement.require(std::abs(norm(c.normal) - 1.0) <= kDirectionError,
+                    contact + " has a normal that is not a unit vector");
 }
 
 /// Numbers of all blocks.
@@ -236,7 +233,6 @@ std::vector<CcpContact> read_contacts(const StateReader& in, const Judgement& ju
     }
   };
   vectors("normal", &CcpContact::normal);
-  vectors("tangent1", &CcpContact::tangent1);
   vectors("arm_a", &CcpContact::arm_a);
   vectors("arm_b", &CcpContact::arm_b);
   indices("body_a", &CcpContact::a);
@@ -301,7 +297,6 @@ void write_ccp_file(const std::filesystem::path& file, const CcpRecord& record) 
   out.write("inverse_inertia", std::span{reinterpret_cast<const double*>(record.inverse_inertia.data()),
                                          9 * record.inverse_inertia.size()});
   out.write("normal", column(record, &CcpContact::normal));
-  out.write("tangent1", column(record, &CcpContact::tangent1));
   out.write("arm_a", column(record, &CcpContact::arm_a));
   out.write("arm_b", column(record, &CcpContact::arm_b));
   out.write("friction", friction);

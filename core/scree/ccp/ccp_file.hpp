@@ -3,7 +3,7 @@
 // `scree run --record-ccp` writes one as an HDF5 file of plain one-dimensional datasets (n bodies, m contacts):
 //
 //     inverse_mass n           [1/kg]         inverse_inertia 9 n, by rows, world   [1/(kg m2)]
-//     body_a, body_b m         indices        normal, tangent1 3 m, world           [1]
+//     body_a, body_b m         indices        normal 3 m, world                     [1]
 //     arm_a, arm_b 3 m, world  [m]            friction m                            [1]
 //     r 3 m                    [m/s]          compliance 3 m, or none               [1/kg]
 //     guess 3 m                [N s]          time, step, tolerance, max_iterations

@@ -4,6 +4,7 @@
 
 #include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree {
 
@@ -161,7 +162,8 @@ Mat3 diagonal_block(const CcpProblem& problem, std::size_t block) {
   const double m = problem.inverse_mass[c.a] + problem.inverse_mass[c.b];
   const Mat3 k = Mat3::diagonal({m, m, m}) + transpose(ra) * (problem.inverse_inertia[c.a] * ra) +
                  transpose(rb) * (problem.inverse_inertia[c.b] * rb);
-  const Mat3 rows{c.normal, c.tangent1, cross(c.normal, c.tangent1)};
+  const ContactFrame frame = contact_frame(c.normal);
+  const Mat3 rows{frame.normal, frame.tangent1, frame.tangent2};
   Mat3 n = rows * (k * transpose(rows));
   if (!problem.compliance.empty()) n = n + Mat3::diagonal(load_block(problem.compliance, block));
   return n;

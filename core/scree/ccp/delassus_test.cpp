@@ -8,6 +8,7 @@
 #include <random>
 
 #include "scree/ccp/judge.hpp"
+#include "scree/math/contact_frame.hpp"
 #include "support/allocation_count.hpp"
 #include "support/ccp_matrix_problem.hpp"
 #include "support/ccp_planted_problems.hpp"
@@ -46,7 +47,7 @@ Matrix dense_delassus(const CcpProblem& p) {
   }
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(p.contacts.size()); ++i) {
     const CcpContact& c = p.contacts[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d n = eigen(c.normal), t = eigen(c.tangent1);
+    const Eigen::Vector3d n = eigen(c.normal), t = eigen(contact_frame(c.normal).tangent1);
     Eigen::Matrix3d axes;
     axes << n.transpose(), t.transpose(), n.cross(t).transpose();
     for (int row = 0; row < 3; ++row) {

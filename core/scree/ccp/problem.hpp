@@ -34,7 +34,6 @@ namespace scree {
 /// A contact block, Coulomb cone ||(g_1, g_2)|| <= friction * g_0.
 struct CcpContact {
   Vec3 normal;                 ///< from a to b [1], world
-  Vec3 tangent1;               ///< [1], world; tangent 2 = normal x tangent 1
   Vec3 arm_a;                  ///< contact point relative to the centre of mass of a [m], world
   Vec3 arm_b;                  ///< contact point relative to the centre of mass of b [m], world
   double friction = 0.0;       ///< [1]

@@ -3,29 +3,26 @@
 #pragma once
 
 #include "scree/ccp/problem.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree {
 
 /// A world vector in the frame of a contact: normal, tangent 1, tangent 2.
-constexpr Vec3 in_frame(const CcpContact& c, const Vec3& v) {
-  return {dot(c.normal, v), dot(c.tangent1, v), dot(cross(c.normal, c.tangent1), v)};
-}
+inline Vec3 in_frame(const CcpContact& c, const Vec3& v) { return to_contact(contact_frame(c.normal), v); }
 
 /// A vector of the contact's frame, in the world.
-constexpr Vec3 in_world(const CcpContact& c, const Vec3& g) {
-  return g.x * c.normal + g.y * c.tangent1 + g.z * cross(c.normal, c.tangent1);
-}
+inline Vec3 in_world(const CcpContact& c, const Vec3& g) { return to_world(contact_frame(c.normal), g); }
 
 /// D_i^T w: velocity of b's surface relative to a's at the contact [m/s], in its
 /// frame, for the velocities `a` and `b` of its bodies.
-constexpr Vec3 relative_velocity(const CcpContact& c, const Twist& a, const Twist& b) {
+inline Vec3 relative_velocity(const CcpContact& c, const Twist& a, const Twist& b) {
   const Vec3 u = (b.linear + cross(b.angular, c.arm_b)) - (a.linear + cross(a.angular, c.arm_a));
   return in_frame(c, u);
 }
 
 /// D_i g: adds an impulse `g` of the contact's frame [N s] to b, its opposite to
 /// a.
-constexpr void add_impulse(const CcpContact& c, const Vec3& g, Twist& a, Twist& b) {
+inline void add_impulse(const CcpContact& c, const Vec3& g, Twist& a, Twist& b) {
   const Vec3 p = in_world(c, g);
   a.linear -= p;
   a.angular -= cross(c.arm_a, p);

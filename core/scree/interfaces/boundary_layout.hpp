@@ -48,9 +48,8 @@ class LayoutDigest {
 
 /// The structs of a contact problem.
 constexpr void add_contact_problem(LayoutDigest& digest) {
-  digest.add<CcpContact>({offsetof(CcpContact, normal), offsetof(CcpContact, tangent1), offsetof(CcpContact, arm_a),
-                          offsetof(CcpContact, arm_b), offsetof(CcpContact, friction), offsetof(CcpContact, a),
-                          offsetof(CcpContact, b)});
+  digest.add<CcpContact>({offsetof(CcpContact, normal), offsetof(CcpContact, arm_a), offsetof(CcpContact, arm_b),
+                          offsetof(CcpContact, friction), offsetof(CcpContact, a), offsetof(CcpContact, b)});
   digest.add<CcpProblem>({offsetof(CcpProblem, inverse_mass), offsetof(CcpProblem, inverse_inertia),
                           offsetof(CcpProblem, contacts), offsetof(CcpProblem, r), offsetof(CcpProblem, compliance),
                           offsetof(CcpProblem, blocks), offsetof(CcpProblem, block_rows),

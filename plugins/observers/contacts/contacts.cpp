@@ -5,6 +5,7 @@
 #include "scree/interfaces/observer.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
+#include "scree/math/contact_frame.hpp"
 #include "scree/results/csv.hpp"
 #include "scree/results/result_folder.hpp"
 

@@ -87,7 +87,7 @@ void ContactAssembly::keep(const BodyView& bodies, std::span<const Contact> cont
 
 void ContactAssembly::release_problem() {
   order_ = {};
-  release(unit_of_, cursor_, inverse_mass_, inverse_inertia_, plain_, rolling_, blocks_, block_rows_, r_, compliance_);
+  release(unit_of_, inverse_mass_, inverse_inertia_, plain_, rolling_, blocks_, block_rows_, r_, compliance_);
 }
 
 // Counting sort by the smaller number of the two bodies, stable; contacts that resist rolling after all others.
@@ -108,6 +108,7 @@ void ContactAssembly::sort_units(const BodyView& bodies, const Materials& materi
   block_rows_.resize(RollingContact::kRows * (m - plain));
   unit_of_.resize(m);
   for (std::size_t i = 0; i < m; ++i) unit_of_[i] = cursor_[place(contacts_[i])]++;
+  if (m >= kManyRecords) release(cursor_);
 }
 
 void ContactAssembly::fill_bodies(const FreeMotion& motion) {
@@ -126,7 +127,6 @@ void ContactAssembly::fill_unit(const FreeMotion& motion, const Materials& mater
   const Contact& c = contacts_[contact];
   const ContactMaterial& material = pair_of(bodies, materials, c);
   const CcpContact geometry = {c.normal,
-                               contact_frame(c.normal).tangent1,
                                c.point - bodies.position[c.a],
                                c.point - bodies.position[c.b],
                                material.friction,

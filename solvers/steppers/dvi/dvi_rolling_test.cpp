@@ -1,5 +1,6 @@
 // Rolling and spinning friction of dvi.
 #include "dvi_world.hpp"
+#include "scree/math/contact_frame.hpp"
 
 #include <gtest/gtest.h>
 

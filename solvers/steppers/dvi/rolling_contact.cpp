@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scree/ccp/twist.hpp"
+#include "scree/math/contact_frame.hpp"
 #include "scree/model/material.hpp"
 
 namespace scree::dvi {
@@ -32,7 +33,8 @@ CcpBlock RollingContact::block(const ContactMaterial& material, std::uint32_t fi
 }
 
 void RollingContact::write_rows(std::span<CcpRow, kRows> rows) const {
-  const std::array<Vec3, 3> axes = {contact.normal, contact.tangent1, cross(contact.normal, contact.tangent1)};
+  const ContactFrame frame = contact_frame(contact.normal);
+  const std::array<Vec3, 3> axes = {frame.normal, frame.tangent1, frame.tangent2};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3& e = axes[k];
     rows[k] = {{-e, -cross(contact.arm_a, e)}, {e, cross(contact.arm_b, e)}};

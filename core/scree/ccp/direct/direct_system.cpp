@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scree/ccp/block_cone.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree::direct {
 namespace {
@@ -99,8 +100,8 @@ void DirectSystem::bind_bodies() {
   ends_.resize(units_.size());
   for (std::size_t i = 0; i < problem_->contacts.size(); ++i) {
     const CcpContact& c = problem_->contacts[i];
-    const std::array rows{contact_row(c, c.normal), contact_row(c, c.tangent1),
-                          contact_row(c, cross(c.normal, c.tangent1))};
+    const ContactFrame f = contact_frame(c.normal);
+    const std::array rows{contact_row(c, f.normal), contact_row(c, f.tangent1), contact_row(c, f.tangent2)};
     make_rows(i, rows.data());
   }
   for (std::size_t i = 0; i < problem_->blocks.size(); ++i) {

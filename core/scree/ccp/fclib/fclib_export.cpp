@@ -6,6 +6,7 @@
 #include "scree/base/error.hpp"
 #include "scree/ccp/block_rows.hpp"
 #include "scree/ccp/twist.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree {
 
@@ -63,7 +64,8 @@ Sparse jacobian_of(const CcpProblem& problem) {
   Triplets entries;
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     const CcpContact& c = problem.contacts[i];
-    const std::array directions{c.normal, c.tangent1, cross(c.normal, c.tangent1)};
+    const ContactFrame frame = contact_frame(c.normal);
+    const std::array directions{frame.normal, frame.tangent1, frame.tangent2};
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& d = directions[k];
       add_twist(entries, 3 * i + k, c.a, {-d, -cross(c.arm_a, d)});

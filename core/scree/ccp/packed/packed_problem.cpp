@@ -7,6 +7,7 @@
 #include "scree/base/require.hpp"
 #include "scree/ccp/block_rows.hpp"
 #include "scree/ccp/cone3.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree::packed {
 namespace {
@@ -125,7 +126,7 @@ void PackedProblem::put_contact(std::size_t i, std::size_t at, std::size_t lane,
   group.b[lane] = offset_of(delassus_->partition().slots()[i].b);
   scale_[at][lane] = 3.0 / trace;
   if (compliance_.empty()) return;
-  put(compliance_[at].tangent1, lane, c.tangent1);
+  put(compliance_[at].tangent1, lane, contact_frame(c.normal).tangent1);
   put(compliance_[at].e, lane, load_block(p.compliance, i));
 }
 

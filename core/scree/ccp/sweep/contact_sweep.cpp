@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scree/ccp/delassus.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree {
 namespace {
@@ -68,7 +69,7 @@ void ContactSweep::put_contact(const CcpProblem& problem, std::size_t at, int la
   const auto k = static_cast<std::size_t>(lane);
   sweep::Group& group = groups_[at];
   put(group.normal, lane, c.normal);
-  put(group.tangent1, lane, c.tangent1);
+  put(group.tangent1, lane, contact_frame(c.normal).tangent1);
   put(group.arm_a, lane, c.arm_a);
   put(group.arm_b, lane, c.arm_b);
   put(group.r, lane, load_block(problem.r, i));
