@@ -5,6 +5,7 @@
 #include "scree/ccp/cone3.hpp"
 #include "scree/ccp/lanes.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree {
 namespace {
@@ -83,7 +84,7 @@ void SingleSweep::put(const CcpProblem& problem, std::size_t at, std::size_t lan
   const sweep::LocalStep step = sweep::block_step(diagonal_block(problem, i), c.friction, 1.0);
   single::Group& group = groups_[at];
   scree::put(group.normal, lane, c.normal);
-  scree::put(group.tangent1, lane, c.tangent1);
+  scree::put(group.tangent1, lane, contact_frame(c.normal).tangent1);
   scree::put(group.arm_a, lane, c.arm_a);
   scree::put(group.arm_b, lane, c.arm_b);
   scree::put(group.r, lane, load_block(problem.r, i));
