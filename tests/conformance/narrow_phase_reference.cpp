@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scree/collision/contact.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree::test {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scree/collision/contact.hpp"
+#include "scree/math/contact_frame.hpp"
 #include "surface_feature.hpp"
 
 namespace scree::convex {

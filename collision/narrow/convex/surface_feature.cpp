@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scree/collision/contact.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree::convex {
 namespace {

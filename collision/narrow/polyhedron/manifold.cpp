@@ -7,6 +7,7 @@
 
 #include "clip.hpp"
 #include "scree/collision/contact.hpp"
+#include "scree/math/contact_frame.hpp"
 
 namespace scree::polyhedron {
 namespace {

@@ -61,7 +61,7 @@ void ConeSweep::bind(const CcpProblem& problem, ContactSweep& contacts, const Bl
     const CcpBlock& block = problem.blocks[k];
     const bool taken = fits(problem, steps, block);
     (taken ? cones : others).push_back(k);
-    if (taken) pairs.push_back({{}, {}, {}, {}, 0.0, block.a, block.b});
+    if (taken) pairs.push_back({{}, {}, {}, 0.0, block.a, block.b});
   }
   if (cones.empty()) return;
   CcpProblem alike;
