@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "conformance/ccp_solver_case.hpp"
-#include "solver_by_name.hpp"
 #include "scree/math/contact_frame.hpp"
+#include "solver_by_name.hpp"
 
 namespace scree::test {
 namespace {

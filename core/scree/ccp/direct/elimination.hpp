@@ -15,7 +15,7 @@ namespace scree::direct {
 
 /// Two nodes with a non-zero block.
 struct Edge {
-  std::uint32_t a = 0, b = 0;  ///< a < b
+  std::uint32_t a = 0, b = 0;                     ///< a < b
   auto operator<=>(const Edge&) const = default;  // NOLINT(modernize-use-nullptr): a fault of clang-tidy 14
 };
 
