@@ -51,6 +51,7 @@ void InteriorPoint::prepare(const CcpProblem& problem, std::span<const double> g
   root_.assign(system_.block_numbers(), 0.0);
   c_.assign(system_.block_numbers(), 0.0);
   gamma_.assign(gamma.begin(), gamma.end());
+  guess_ = gamma_;
 }
 
 // A centred point: impulses that change velocities by about those of r.
@@ -269,6 +270,8 @@ SolveSummary InteriorPoint::solve(const CcpProblem& problem, const SolveContext&
     prepare(problem, gamma);
     approach(context, summary);
     newton_.run(system_, problem, kFinish, context, gamma, best_, summary);
+    // What lies too badly for that is now and then near to be had from the guess.
+    if (!best_.done()) newton_.run(system_, problem, {}, context, guess_, best_, summary);
   }
   best_.conclude(summary);
   return summary;
@@ -279,8 +282,8 @@ void InteriorPoint::release_workspace() {
   best_ = {};
   newton_ = {};
   barrier_ = {};
-  release(weight_, gamma_, change_, candidate_, u_, mismatch_, l_, ds_, dz_, rho_, scaling_, root_, c_, rhs_, left_,
-          correction_, state_);
+  release(weight_, gamma_, guess_, change_, candidate_, u_, mismatch_, l_, ds_, dz_, rho_, scaling_, root_, c_, rhs_,
+          left_, correction_, state_);
 }
 
 }  // namespace scree

@@ -57,10 +57,10 @@ class InteriorPoint final : public CcpSolver {
   second_order::ProximalNewton newton_;
   second_order::Barrier barrier_;
   const CcpProblem* problem_ = nullptr;
-  std::vector<double> weight_;                      ///< trace of each unit over its rows [1/kg]
-  std::vector<double> gamma_, change_, candidate_;  ///< [N s]
-  std::vector<double> u_, mismatch_;                ///< N gamma + r, u - G^T z [m/s]
-  std::vector<Vec3> l_, ds_, dz_, rho_;             ///< per cone, scaled: W z = W^-1 s, W^-1 ds, W dz
+  std::vector<double> weight_;                              ///< trace of each unit over its rows [1/kg]
+  std::vector<double> gamma_, guess_, change_, candidate_;  ///< [N s]
+  std::vector<double> u_, mismatch_;                        ///< N gamma + r, u - G^T z [m/s]
+  std::vector<Vec3> l_, ds_, dz_, rho_;                     ///< per cone, scaled: W z = W^-1 s, W^-1 ds, W dz
   std::vector<second_order::Scaling> scaling_;
   std::vector<double> root_, c_;  ///< of E + G^T W^-2 G + regularisation, and of its inverse
   std::vector<double> rhs_, left_, correction_, state_;
