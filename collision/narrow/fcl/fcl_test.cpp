@@ -1,84 +1,9 @@
-// `fcl` against closed forms; the suite over all pairs of kinds is in tests/narrow_phases.
+// What narrow phases around a library hold, of `fcl`.
 #include "fcl_phase.hpp"
+#include "library_phase_test.hpp"
 
-#include <gtest/gtest.h>
+namespace scree::test {
 
-#include <limits>
+INSTANTIATE_TYPED_TEST_SUITE_P(fcl, LibraryPhase, FclNarrowPhase);
 
-#include "scree/base/error.hpp"
-#include "support/pair_scene.hpp"
-
-namespace scree {
-namespace {
-
-using test::PairScene;
-using test::primitive_data;
-
-// Two cubes of edge 2, a face apart and one pushed in: four points, each of the exact gap.
-TEST(Fcl, boxes_meet_in_four_points) {
-  FclNarrowPhase phase;
-  PairScene scene{primitive_data(ShapeKind::box, {1, 1, 1}), primitive_data(ShapeKind::box, {1, 1, 1})};
-  for (const double gap : {0.01, -0.01}) {
-    const ContactBuffer contacts = scene.collide(phase, {}, {{0.5, 0.25, 2 + gap}, {}}, 0.1);
-    ASSERT_EQ(contacts.size(), 4u);
-    for (const Contact& c : contacts) {
-      EXPECT_NEAR(c.gap, gap, 1e-12);  // rounding of numbers near one
-      EXPECT_NEAR(c.normal.z, 1.0, 1e-12);
-      EXPECT_NEAR(c.point.z, 1 + 0.5 * gap, 1e-12);
-    }
-  }
-  EXPECT_EQ(phase.fallbacks(), 0u);
-}
-
-// An upright cylinder of radius 1 on a large box: its twelve-sided rim gives eight points at most, the cylinder's foot.
-TEST(Fcl, an_upright_cylinder_stands_on_points_of_its_rim) {
-  FclNarrowPhase phase;
-  PairScene scene{primitive_data(ShapeKind::box, {10, 10, 1}), primitive_data(ShapeKind::cylinder, {1, 2, 0})};
-  const ContactBuffer contacts = scene.collide(phase, {}, {{3, 0, 2.999}, {}}, 0.01);
-  ASSERT_GE(contacts.size(), 4u);
-  ASSERT_LE(contacts.size(), 8u);
-  Vec3 mean;
-  for (const Contact& c : contacts) {
-    EXPECT_NEAR(c.gap, -0.001, 1e-12);
-    EXPECT_NEAR(std::hypot(c.point.x - 3, c.point.y), 1.0, 1e-9);
-    mean += c.point / static_cast<double>(contacts.size());
-  }
-  EXPECT_LT(std::hypot(mean.x - 3, mean.y), 0.5) << "they hold it from all sides";
-}
-
-// A mesh of a flat floor gives no sideways push at its inner edges, wherever the box stands.
-TEST(Fcl, a_flat_mesh_pushes_straight_up) {
-  std::vector<Vec3> vertices;
-  std::vector<Triangle> triangles;
-  for (std::uint32_t j = 0; j < 5; ++j) {
-    for (std::uint32_t i = 0; i < 5; ++i) vertices.push_back({i - 2.0, j - 2.0, 0.0});
-  }
-  for (std::uint32_t j = 0; j < 4; ++j) {
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      const std::uint32_t k = 5 * j + i;
-      triangles.push_back({k, k + 1, k + 6});
-      triangles.push_back({k, k + 6, k + 5});
-    }
-  }
-  FclNarrowPhase phase;
-  PairScene scene{test::mesh_data(vertices, triangles), primitive_data(ShapeKind::box, {0.4, 0.3, 0.2})};
-  for (int k = 0; k < 40; ++k) {
-    const Vec3 at{0.05 * k - 1.0, 0.03 * k - 0.5, 0.199};
-    const ContactBuffer contacts = scene.collide(phase, {}, {at, {}}, 0.01);
-    ASSERT_FALSE(contacts.empty());
-    for (const Contact& c : contacts) {
-      EXPECT_NEAR(c.normal.z, 1.0, 1e-9) << "step " << k;
-      EXPECT_NEAR(c.gap, -0.001, 1e-9);
-    }
-  }
-}
-
-TEST(Fcl, a_drum_is_refused) {
-  FclNarrowPhase phase;
-  PairScene scene{primitive_data(ShapeKind::cylinder, {1, 1, 0}, true),
-                  primitive_data(ShapeKind::box, {0.1, 0.1, 0.1})};
-  EXPECT_THROW(static_cast<void>(scene.collide(phase, {}, {}, 0.1)), Error);
-}
-
-}  // namespace
-}  // namespace scree
+}  // namespace scree::test
