@@ -49,13 +49,14 @@ struct TestBodies {
     radius.push_back(equivalent_radius);
     force.emplace_back();
     torque.emplace_back();
+    if (!surface_motion.empty()) surface_motion.emplace_back();
     attributes->resize(id.size());
     return id.size() - 1;
   }
 
   [[nodiscard]] BodyView view() const {
-    return {id,       motion,           shape, material, position, orientation,
-            velocity, angular_velocity, mass,  inertia,  radius,   attributes};
+    return {id,   motion,  shape,  material,   position, orientation,   velocity, angular_velocity,
+            mass, inertia, radius, attributes, {},       surface_motion};
   }
   /// Forces and torques set to zero, ready to be added to.
   [[nodiscard]] WrenchView wrenches() {
@@ -75,6 +76,7 @@ struct TestBodies {
   std::vector<double> mass;            ///< [kg]
   std::vector<Vec3> inertia;           ///< [kg m2]
   std::vector<double> radius;          ///< [m]
+  std::vector<Twist> surface_motion;   ///< body frame [m/s], [rad/s]; empty, or one per body
   std::vector<Vec3> force;             ///< [N]
   std::vector<Vec3> torque;            ///< [N m]
   Attributes* attributes;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "scree/model/body_store.hpp"
+#include "support/memory_state.hpp"
 
 namespace scree {
 namespace {
@@ -86,6 +87,35 @@ TEST(BodyStore, the_hash_sees_attributes_but_not_what_observers_write) {
   EXPECT_NE(hash(1e-9, 0.0, false), hash(2e-9, 0.0, false));
   EXPECT_EQ(hash(1e-9, 0.0, true), hash(1e-9, 0.0, false));
   EXPECT_EQ(hash(1e-9, 7.0, true), hash(1e-9, 0.0, true));
+}
+
+// A column that most scenes do without: there from the first body that has one, for all bodies.
+TEST(BodyStore, surface_motions_exist_from_the_first_conveyor_and_follow_their_bodies) {
+  BodyStore store;
+  store.add(at(0));
+  EXPECT_TRUE(store.view().surface_motion.empty());
+  EXPECT_EQ(surface_motion(store.view(), 0), Twist{});
+  NewBody belt = at(1);
+  belt.surface_motion = {{1, 0, 0}, {0, 0, 2}};
+  belt.pose.orientation = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
+  store.add(belt);
+  store.add(at(2));
+  ASSERT_EQ(store.view().surface_motion.size(), 3u);
+  EXPECT_EQ(store.view().surface_motion[0], Twist{});
+  EXPECT_EQ(store.view().surface_motion[1], belt.surface_motion);
+  // World: x of the body is y.
+  EXPECT_NEAR(surface_motion(store.view(), 1).linear.y, 1.0, 1e-15);
+  EXPECT_NEAR(surface_motion(store.view(), 1).angular.z, 2.0, 1e-15);
+
+  test::MemoryState state;
+  test::MemoryWriter writer{state};
+  store.save(writer);
+  BodyStore loaded;
+  loaded.load(test::MemoryReader{state});
+  EXPECT_EQ(loaded.hash(), store.hash());
+  store.remove(std::vector<char>{1, 0, 0});
+  EXPECT_EQ(store.view().surface_motion[0], belt.surface_motion);
+  EXPECT_NE(loaded.hash(), store.hash());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "scree/math/mat3.hpp"
 #include "scree/math/pose.hpp"
+#include "scree/math/twist.hpp"
 #include "scree/model/attributes.hpp"
 
 namespace scree {
@@ -45,6 +46,9 @@ struct BodyView {
   std::span<const double> radius;           ///< of the sphere of equal volume [m]
   const Attributes* attributes = nullptr;
   std::span<const CollisionGroup> collision_group = {};
+  /// Motion of the surface against the body, as that of a conveyor belt, in the body frame: [m/s] at its origin, [rad/s]. Empty
+  /// when no body has one. Contacts see it in their tangents; the body itself stays where it is.
+  std::span<const Twist> surface_motion = {};
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
   [[nodiscard]] std::span<const double> attribute(AttributeId column) const { return attributes->column(column); }
@@ -64,6 +68,13 @@ struct WrenchView {
   std::span<Vec3> force;   ///< on the centre of mass [N], world
   std::span<Vec3> torque;  ///< about the centre of mass [N m], world
 };
+
+/// Motion of the surface of body i against the body [m/s] at its centre of mass, [rad/s], world; zero where it has none.
+inline Twist surface_motion(const BodyView& bodies, BodyIndex i) {
+  if (bodies.surface_motion.empty()) return {};
+  const Twist& local = bodies.surface_motion[i];
+  return {rotate(bodies.orientation[i], local.linear), rotate(bodies.orientation[i], local.angular)};
+}
 
 /// Inverse mass [1/kg]: zero for bodies that forces do not move.
 inline double inverse_mass(const BodyView& bodies, BodyIndex i) {

@@ -42,6 +42,23 @@ std::vector<T> narrow(const std::vector<std::uint64_t>& wide) {
   return values;
 }
 
+std::vector<Vec3> column_of(const std::vector<Twist>& twists, Vec3 Twist::*part) {
+  std::vector<Vec3> values;
+  values.reserve(twists.size());
+  for (const Twist& twist : twists) values.push_back(twist.*part);
+  return values;
+}
+
+std::vector<Twist> twists(const std::vector<Vec3>& linear, const std::vector<Vec3>& angular) {
+  if (linear.size() != angular.size()) {
+    throw Error{ErrorKind::io, "the checkpoint's columns of bodies differ in length; the file is damaged"};
+  }
+  std::vector<Twist> values;
+  values.reserve(linear.size());
+  for (std::size_t i = 0; i < linear.size(); ++i) values.push_back({linear[i], angular[i]});
+  return values;
+}
+
 }  // namespace
 
 BodyId BodyStore::add(const NewBody& body) {
@@ -57,6 +74,10 @@ BodyId BodyStore::add(const NewBody& body) {
   inertia_.push_back(body.inertia);
   radius_.push_back(body.radius);
   collision_group_.push_back(body.collision_group);
+  if (!surface_motion_.empty() || body.surface_motion != Twist{}) {
+    surface_motion_.resize(id_.size());
+    surface_motion_.back() = body.surface_motion;
+  }
   attributes_.append_body();
   for (const auto& [column, value] : body.attributes) attributes_.column(column).back() = value;
   return next_id_++;
@@ -66,6 +87,7 @@ void BodyStore::reserve(std::size_t count) {
   const auto fit = [count](auto&... column) { (column.reserve(count), ...); };
   fit(id_, motion_, shape_, material_, position_, orientation_, velocity_, angular_velocity_, mass_, inertia_, radius_,
       collision_group_);
+  if (!surface_motion_.empty()) surface_motion_.reserve(count);
   attributes_.reserve(count);
 }
 
@@ -85,12 +107,13 @@ void BodyStore::remove(std::span<const char> remove) {
   compact(inertia_, keep);
   compact(radius_, keep);
   compact(collision_group_, keep);
+  if (!surface_motion_.empty()) compact(surface_motion_, keep);
   attributes_.compact(keep);
 }
 
 BodyView BodyStore::view() const {
-  return {id_,   motion_,  shape_,  material_,    position_,       orientation_, velocity_, angular_velocity_,
-          mass_, inertia_, radius_, &attributes_, collision_group_};
+  return {id_,   motion_,  shape_,  material_,    position_,        orientation_,   velocity_, angular_velocity_,
+          mass_, inertia_, radius_, &attributes_, collision_group_, surface_motion_};
 }
 
 BodyState BodyStore::state() { return {view(), position_, orientation_, velocity_, angular_velocity_}; }
@@ -111,6 +134,7 @@ std::uint64_t BodyStore::hash() const {
   if (std::ranges::any_of(collision_group_, [](CollisionGroup g) { return g != 0; })) {
     hash = mix(hash, std::span{collision_group_});
   }
+  if (!surface_motion_.empty()) hash = mix(hash, std::span{surface_motion_});
   // By name: an observer may have declared columns among the others.
   std::vector<AttributeId> columns;
   for (AttributeId id = 0; id < attributes_.count(); ++id) {
@@ -140,6 +164,8 @@ void BodyStore::save(StateWriter& out) const {
   out.write("inertia", std::span<const Vec3>{inertia_});
   out.write("radius", std::span<const double>{radius_});
   out.write("collision_group", std::span<const std::uint64_t>{widen(collision_group_)});
+  out.write("surface_velocity", std::span<const Vec3>{column_of(surface_motion_, &Twist::linear)});
+  out.write("surface_angular_velocity", std::span<const Vec3>{column_of(surface_motion_, &Twist::angular)});
   const auto columns = out.group("attributes");
   for (AttributeId c = 0; c < attributes_.count(); ++c) columns->write(attributes_.info(c).name, attributes_.column(c));
 }
@@ -158,9 +184,11 @@ void BodyStore::load(const StateReader& in) {
   inertia_ = in.vectors("inertia");
   radius_ = in.doubles("radius");
   collision_group_ = narrow<CollisionGroup>(in.integers("collision_group"));
+  surface_motion_ = twists(in.vectors("surface_velocity"), in.vectors("surface_angular_velocity"));
   const auto same = [n = id_.size()](const auto&... column) { return ((column.size() == n) && ...); };
   if (!same(motion_, shape_, material_, position_, orientation_, velocity_, angular_velocity_, mass_, inertia_, radius_,
-            collision_group_)) {
+            collision_group_) ||
+      (!surface_motion_.empty() && !same(surface_motion_))) {
     throw Error{ErrorKind::io, "the checkpoint's columns of bodies differ in length; the file is damaged"};
   }
   attributes_.resize(id_.size());

@@ -24,6 +24,7 @@ struct NewBody {
   Vec3 inertia{1, 1, 1};       ///< principal moments [kg m2]
   double radius = 0.0;         ///< of the sphere of equal volume [m]
   CollisionGroup collision_group = 0;
+  Twist surface_motion;                                    ///< of a conveyor [m/s], [rad/s], as BodyView has it
   std::vector<std::pair<AttributeId, double>> attributes;  ///< those that differ from the column's initial value
 };
 
@@ -48,7 +49,7 @@ class BodyStore {
   /// Bodies ever added; the next id.
   [[nodiscard]] BodyId next_id() const { return next_id_; }
 
-  /// A hash of every bit of ids, poses, velocities, masses, attributes and collision groups, for comparing states. Columns that only
+  /// A hash of every bit of ids, poses, velocities, masses, attributes, collision groups and surface motions, for comparing states. Columns that only
   /// observers write are left out, so that an observer that adds one leaves it as it is.
   [[nodiscard]] std::uint64_t hash() const;
 
@@ -69,6 +70,7 @@ class BodyStore {
   std::vector<Vec3> inertia_;
   std::vector<double> radius_;
   std::vector<CollisionGroup> collision_group_;
+  std::vector<Twist> surface_motion_;  ///< empty until a body has one
   Attributes attributes_;
 };
 

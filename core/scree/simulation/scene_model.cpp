@@ -140,6 +140,10 @@ SceneBody read_body(SceneModel& model, const Options& o) {
   }
   body.velocity = o.vector("velocity");
   body.angular_velocity = o.vector("angular_velocity");
+  const Pose frame = model.shapes.body_to_shape(body.shape);
+  const Vec3 turning = o.vector("surface_angular_velocity");
+  body.surface_motion = {rotate_back(frame.orientation, o.vector("surface_velocity") + cross(turning, frame.position)),
+                         rotate_back(frame.orientation, turning)};
   const double density = model.materials[body.material].density;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   body.mass = body.motion == Motion::dynamic ? density * shape.volume : kInfinity;

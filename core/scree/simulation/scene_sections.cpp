@@ -175,6 +175,12 @@ std::vector<SceneSection> model_sections() {
                .by_default(Vec3{}),
            Parameter::vector("angular_velocity", "rad/s", "world frame; of a kinematic body for ever")
                .by_default(Vec3{}),
+           Parameter::vector("surface_velocity", "m/s",
+                             "of the surface against the body, in the axes of its shape: a conveyor belt")
+               .by_default(Vec3{}),
+           Parameter::vector("surface_angular_velocity", "rad/s",
+                             "of the surface against the body, about the origin of its shape: a turntable")
+               .by_default(Vec3{}),
            Parameter::boolean("collides", "false: nothing touches the body").by_default(true), group_parameter(),
            Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
            pose_parameters()}};

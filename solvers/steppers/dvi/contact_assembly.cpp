@@ -6,6 +6,7 @@
 #include "scree/base/release.hpp"
 #include "scree/model/material.hpp"
 #include "scree/parallel/executor.hpp"
+#include "surface_motion.hpp"
 
 namespace scree::dvi {
 
@@ -138,9 +139,10 @@ void ContactAssembly::fill_unit(const FreeMotion& motion, const Materials& mater
                                       {motion.velocity[c.b], motion.angular_velocity[c.b]});
   const NormalRow normal = normal_row(material, limits, c.gap, before.x, free.x, dt);
   const std::size_t unit = unit_of_[contact], row = first_row_of_unit(unit);
+  const Vec3 slip = surface_slip(bodies, c, geometry);
   r_[row] = free.x + normal.b;
-  r_[row + 1] = free.y;
-  r_[row + 2] = free.z;
+  r_[row + 1] = free.y + slip.y;
+  r_[row + 2] = free.z + slip.z;
   if (!compliance_.empty()) compliance_[row] = normal.compliance;
   if (unit < plain_.size()) {
     plain_[unit] = geometry;
@@ -156,7 +158,10 @@ void ContactAssembly::fill_rolling(const FreeMotion& motion, const ContactMateri
   const RollingContact& rolling = rolling_[block] = {geometry, smaller_radius(motion.bodies, c)};
   blocks_[block] = rolling.block(material, static_cast<std::uint32_t>(first));
   rolling.write_rows(std::span{block_rows_}.subspan(first).first<RollingContact::kRows>());
-  const Vec3 turn = rolling.rolling_velocity(motion.angular_velocity[c.a], motion.angular_velocity[c.b]);
+  const auto turning = [&](BodyIndex i) {
+    return motion.angular_velocity[i] + surface_motion(motion.bodies, i).angular;
+  };
+  const Vec3 turn = rolling.rolling_velocity(turning(c.a), turning(c.b));
   const std::size_t row = 3 * plain_.size() + first + 3;
   r_[row] = turn.x;
   r_[row + 1] = turn.y;

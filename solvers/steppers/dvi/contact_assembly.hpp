@@ -11,6 +11,7 @@
 //           Phi / h                         Phi > 0: closes at most, never crosses
 //     b_n = min(b_n, e u_n(v0))             an impact: u_n(v0) < -min_bounce_speed
 //                                           and Phi + h u_n(v_f) <= 0
+//     b_t = D_t^T of the motion of the surfaces against their bodies (surface_motion.hpp)
 //     b_n = k / (h k + d) Phi,  E_n = 1 / (h (h k + d))     a compliant contact
 //
 // Contacts that resist rolling or spinning are blocks of six rows

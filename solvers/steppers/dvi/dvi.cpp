@@ -7,6 +7,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/parallel/executor.hpp"
 #include "scree/state/state_io.hpp"
+#include "surface_motion.hpp"
 
 namespace scree {
 
@@ -47,7 +48,7 @@ std::vector<Parameter> Dvi::parameters() {
 StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double time, double dt) {
   if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_, angular_impulse_);
   free_motion(services, bodies.view, time, dt);
-  const std::span<const Contact> found = services.contacts(bodies.view, velocity_, angular_velocity_, dt);
+  const std::span<const Contact> found = find_contacts(services, bodies.view, dt);
   assembly_.build({bodies.view, velocity_, angular_velocity_}, found, services.materials(), options_.limits, dt,
                   services.executor());
   StepSummary summary;
@@ -87,6 +88,20 @@ void Dvi::free_motion(StepServices& services, const BodyView& bodies, double tim
     }
   });
   if (n >= kManyRecords) release(force_, torque_);
+}
+
+// Surfaces that slip float by what they slip in a step, whoever moves: collision looks as far as for bodies that move so.
+std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyView& bodies, double dt) {
+  if (bodies.surface_motion.empty()) return services.contacts(bodies, velocity_, angular_velocity_, dt);
+  surface_velocity_ = velocity_;
+  surface_spin_ = angular_velocity_;
+  for (BodyIndex i = 0; i < bodies.size(); ++i) {
+    if (bodies.surface_motion[i] == Twist{}) continue;
+    const Twist surface = surface_motion(bodies, i);
+    surface_velocity_[i] += surface.linear;
+    surface_spin_[i] += surface.angular;
+  }
+  return services.contacts(bodies, surface_velocity_, surface_spin_, dt);
 }
 
 void Dvi::find_keys(const BodyView& bodies) {
@@ -142,7 +157,7 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
     delassus_.body_velocities(gamma_, w_);
     if (problem.contacts.size() >= kManyRecords) delassus_ = {};
   }
-  keep_results(problem);
+  keep_results(bodies, problem);
   remember(bodies, dt);
   for (std::size_t k = 0; k < problem.bodies(); ++k) {
     const BodyIndex body = assembly_.bodies()[k];
@@ -154,7 +169,7 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
 }
 
 // While velocity_ is still that of the free motion.
-void Dvi::keep_results(const CcpProblem& problem) {
+void Dvi::keep_results(const BodyView& bodies, const CcpProblem& problem) {
   const std::size_t m = assembly_.contacts().size();
   impulse_.resize(m);
   before_.resize(m);
@@ -168,7 +183,7 @@ void Dvi::keep_results(const CcpProblem& problem) {
     const CcpContact& c = assembly_.geometry(k);
     const std::span<const double> rows = std::span<const double>{gamma_}.subspan(assembly_.first_row(k));
     impulse_[k] = load_block(rows, 0);
-    before_[k] = relative_velocity(c, free(c.a), free(c.b));
+    before_[k] = relative_velocity(c, free(c.a), free(c.b)) + dvi::surface_slip(bodies, assembly_.contacts()[k], c);
     after_[k] = before_[k] + relative_velocity(c, w_[c.a], w_[c.b]);
     const dvi::RollingContact* rolling = assembly_.rolling(k);
     if (rolling != nullptr) angular_impulse_[k] = rolling->length * load_block(rows, 1);

@@ -44,10 +44,11 @@ class Dvi final : public TimeStepper {
 
  private:
   void free_motion(StepServices& services, const BodyView& bodies, double time, double dt);
+  std::span<const Contact> find_contacts(StepServices& services, const BodyView& bodies, double dt);
   SolveSummary solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt);
   void recall(const BodyView& bodies, const CcpProblem& problem, double dt);
   void find_keys(const BodyView& bodies);
-  void keep_results(const CcpProblem& problem);
+  void keep_results(const BodyView& bodies, const CcpProblem& problem);
   void remember(const BodyView& bodies, double dt);
   void release_step();
   void measure_overlap(const BodyView& bodies, StepSummary& summary) const;
@@ -59,8 +60,9 @@ class Dvi final : public TimeStepper {
   DelassusOperator delassus_;
 
   std::vector<Vec3> force_, torque_;
-  std::vector<Vec3> velocity_, angular_velocity_;  ///< of all bodies: free, then with impulses
-  std::vector<Vec3> gyroscopic_;                   ///< change by gyroscopic torque, world; empty when off
+  std::vector<Vec3> velocity_, angular_velocity_;      ///< of all bodies: free, then with impulses
+  std::vector<Vec3> gyroscopic_;                       ///< change by gyroscopic torque, world; empty when off
+  std::vector<Vec3> surface_velocity_, surface_spin_;  ///< free, with surface motions; empty when no body has one
   std::vector<double> gamma_;
   std::vector<Twist> w_;
 
