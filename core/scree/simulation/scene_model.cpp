@@ -35,11 +35,11 @@ ContactMaterial contact_material(const Options& o) {
 }
 
 PairRule pair_rule(const std::string& word) {
-  static const std::map<std::string, PairRule> kRules{{"minimum", PairRule::minimum},
+  static const std::map<std::string, PairRule> rules{{"minimum", PairRule::minimum},
                                                       {"maximum", PairRule::maximum},
                                                       {"mean", PairRule::mean},
                                                       {"geometric_mean", PairRule::geometric_mean}};
-  return kRules.at(word);
+  return rules.at(word);
 }
 
 std::uint32_t find_material(const Materials& materials, const std::string& name, const Options& o, const char* key) {
