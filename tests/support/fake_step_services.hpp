@@ -20,7 +20,7 @@
 
 namespace scree::test {
 
-/// Body 0 is the half space below z = 0, the others are spheres of their radius.
+/// Body 0 is the half space below its position, the others are spheres of their radius.
 class FakeStepServices final : public StepServices {
  public:
   explicit FakeStepServices(TestBodies& bodies, int threads = 1) : bodies_{bodies}, executor_{threads} { material({}); }
@@ -95,8 +95,8 @@ class FakeStepServices final : public StepServices {
  private:
   static Contact on_floor(const BodyView& view, BodyIndex b) {
     const Vec3 x = view.position[b];
-    const double gap = x.z - view.radius[b];
-    return {0, b, 0, 0, 0, {x.x, x.y, 0.5 * gap}, {0, 0, 1}, gap};
+    const double floor = view.position[0].z, gap = x.z - floor - view.radius[b];
+    return {0, b, 0, 0, 0, {x.x, x.y, floor + 0.5 * gap}, {0, 0, 1}, gap};
   }
   static Contact between(const BodyView& view, BodyIndex a, BodyIndex b) {
     const Vec3 apart = view.position[b] - view.position[a];

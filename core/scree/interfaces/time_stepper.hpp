@@ -37,6 +37,23 @@ class StepServices {
   virtual void before_motion() {}
 };
 
+/// What a step did to the dynamic bodies: their kinetic energy changes by
+///     force_work + boundary_work - contact_loss.
+/// Each is an impulse times the mean of the velocities at the beginning and at the end of the step.
+struct StepWork {
+  double contact_loss = 0.0;  ///< - sum over contacts of gamma . (u0 + u1) / 2 [J], rolling and spinning included; what
+                              ///< compliant contacts store counts as lost, and comes back
+  double boundary_work = 0.0;  ///< by bodies that forces do not move, through contacts: their surface moves [J]
+  double force_work = 0.0;     ///< by all force fields [J]
+
+  StepWork& operator+=(const StepWork& o) {
+    contact_loss += o.contact_loss;
+    boundary_work += o.boundary_work;
+    force_work += o.force_work;
+    return *this;
+  }
+};
+
 /// What a step did. Numerical outcomes are data, not exceptions.
 struct StepSummary {
   SolveSummary solve;
@@ -46,6 +63,7 @@ struct StepSummary {
   double max_penetration = 0.0;   ///< [m]
   int friction_solves = 1;        ///< CCPs solved for exact Coulomb friction
   double friction_error = 0.0;    ///< what exact Coulomb friction still lacks [m/s]
+  StepWork work;
 };
 
 /// A time-stepping scheme.

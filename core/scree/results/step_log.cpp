@@ -17,6 +17,11 @@ std::vector<CsvColumn> step_columns(const std::vector<std::string>& phases) {
                                  {"mean_penetration", "1"},
                                  {"max_penetration", "m"},
                                  {"kinetic_energy", "J"},
+                                 {"potential_energy", "J"},
+                                 {"contact_loss", "J"},
+                                 {"boundary_work", "J"},
+                                 {"force_work", "J"},
+                                 {"fed_kinetic_energy", "J"},
                                  {"fallbacks", ""}};
   for (const std::string& phase : phases) columns.push_back({"seconds_" + phase, "s"});
   return columns;
@@ -30,7 +35,9 @@ StepLog::StepLog(const std::filesystem::path& file, const std::vector<std::strin
 void StepLog::add(const StepRecord& record, std::span<const double> phase_seconds) {
   table_.cell(record.step).cell(record.time).cell(record.bodies).cell(record.contacts).cell(record.iterations);
   table_.cell(record.residual).cell(record.status).cell(record.mean_penetration).cell(record.max_penetration);
-  table_.cell(record.kinetic_energy).cell(record.fallbacks);
+  const EnergyAccount& energy = record.energy;
+  table_.cell(energy.kinetic).cell(energy.potential).cell(energy.work.contact_loss).cell(energy.work.boundary_work);
+  table_.cell(energy.work.force_work).cell(energy.fed_kinetic).cell(record.fallbacks);
   for (const double seconds : phase_seconds) table_.cell(seconds);
   table_.end_row();
 }

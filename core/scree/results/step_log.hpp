@@ -9,6 +9,7 @@
 
 #include "scree/interfaces/observer.hpp"
 #include "scree/results/csv.hpp"
+#include "scree/results/energy_account.hpp"
 
 namespace scree {
 
@@ -25,8 +26,8 @@ struct StepRecord {
   std::string status;             ///< of the solver: "converged", ...
   double mean_penetration = 0.0;  ///< over closed contacts, relative to the smaller body's radius [1]
   double max_penetration = 0.0;   ///< [m]
-  double kinetic_energy = 0.0;    ///< of the dynamic bodies [J]
   std::uint64_t fallbacks = 0;    ///< pairs that a narrow phase computed by its fallback
+  EnergyAccount energy;
 };
 
 /// Writes steps.csv.

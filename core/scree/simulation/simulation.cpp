@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scree/base/release.hpp"
+#include "scree/model/kinetic_energy.hpp"
 #include "scree/simulation/simulation_state.hpp"
 
 namespace scree {
@@ -64,6 +65,7 @@ void Simulation::State::feed_sources() {
     for (NewBody& body : born) {
       body.collision_group = source_groups[k];
       add(std::move(body));
+      energy.fed_kinetic += kinetic_energy(bodies.view(), static_cast<BodyIndex>(bodies.size() - 1));
     }
     // A bed of all particles at once is not kept twice for the rest of the run.
     if (born.size() > kManyBorn) release(born);
@@ -126,6 +128,9 @@ void Simulation::State::remove_bodies(double at) {
   }
   // Counted when every sink has spoken: one that throws undoes the step.
   removed = std::move(now);
+  for (std::size_t i = 0; i < leaving.size(); ++i) {
+    if (leaving[i] != 0) energy.fed_kinetic -= kinetic_energy(view, static_cast<BodyIndex>(i));
+  }
   for (const RemovedBody& body : removed) feed.removed[body.material].add(body.mass);
   if (!removed.empty()) bodies.remove(leaving);
 }
@@ -142,6 +147,7 @@ StepSummary Simulation::State::take_step() {
     observe();
     remove_bodies(end);
     ++steps;
+    energy.work += summary.work;
     fed_this_step = false;
     backup.forget();
     return summary;
@@ -166,13 +172,17 @@ StepRecord Simulation::State::record(const StepSummary& summary) {
   record.status = to_string(summary.solve.status);
   record.mean_penetration = summary.mean_penetration;
   record.max_penetration = summary.max_penetration;
+  record.energy = energy;
   const BodyView view = bodies.view();
   for (std::size_t i = 0; i < view.size(); ++i) {
     if (view.motion[i] != Motion::dynamic) continue;
     ++record.bodies;
-    const Vec3 spin = rotate_back(view.orientation[i], view.angular_velocity[i]);
-    record.kinetic_energy +=
-        0.5 * (view.mass[i] * squared_norm(view.velocity[i]) + dot(spin, hadamard(view.inertia[i], spin)));
+    record.energy.kinetic += kinetic_energy(view, static_cast<BodyIndex>(i));
+  }
+  for (const Part<ForceField>& field : parts.forces) {
+    guarded(field.info, ErrorKind::diverged, [&] {
+      if (field.plugin->is_conservative()) record.energy.potential += field.plugin->potential_energy(view, time());
+    });
   }
   return record;
 }

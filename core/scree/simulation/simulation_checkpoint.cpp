@@ -167,6 +167,7 @@ void Simulation::State::save_to(StateWriter& out) const {
   }
   run->write("amount_counts", std::span<const std::uint64_t>{counts});
   run->write("amount_masses", std::span<const double>{masses});
+  energy.save(*out.group("energy"));
   save_removed(removed, *out.group("removed"));
   model.shapes.save(*out.group("shapes"));
   bodies.save(*out.group("bodies"));
@@ -194,6 +195,7 @@ void Simulation::State::restore_from(const StateReader& in) {
     feed.fed[m] = {counts[m], masses[m]};
     feed.removed[m] = {counts[materials + m], masses[materials + m]};
   }
+  energy.load(*in.group("energy"));
   removed = load_removed(*in.group("removed"));
   model.shapes.load(*in.group("shapes"));
   bodies.load(*in.group("bodies"));

@@ -57,6 +57,7 @@ struct Simulation::State {
   std::uint64_t fallbacks = 0;  // of the narrow phases, up to the last step
   bool failed = false;          // the last step threw; bodies are those before it
   FeedRecord feed;
+  EnergyAccount energy;  // up to the last step; energies of the moment are zero
   std::vector<RemovedBody> removed;
   std::vector<NewBody> born;
   std::vector<char> leaving;

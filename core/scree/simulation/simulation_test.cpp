@@ -95,6 +95,26 @@ TEST(Simulation, continues_from_a_checkpoint_bit_for_bit) {
   std::filesystem::remove(file);
 }
 
+// What fields did and what came and left make the kinetic energy, across a restart too.
+TEST(Simulation, energy_is_accounted_for_through_sources_sinks_and_restarts) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(scene(kFedScene));
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "scree_energy_test.h5";
+  Simulation whole{document, catalog, {}}, second{document, catalog, {}};
+  for (int step = 0; step < 15; ++step) whole.step();
+  whole.save(file);
+  second.resume(file);
+  for (int step = 0; step < 15; ++step) {
+    const EnergyAccount energy = whole.step().energy, resumed = second.step().energy;
+    ASSERT_FALSE(whole.removed().empty());
+    // Bodies that a sink took are in the account and in `bodies` no more. Thirty sums of numbers near ten.
+    EXPECT_NEAR(energy.kinetic, energy.work.force_work + energy.fed_kinetic, 1e-12);
+    EXPECT_EQ(resumed.work.force_work, energy.work.force_work);
+    EXPECT_EQ(resumed.fed_kinetic, energy.fed_kinetic);
+  }
+  std::filesystem::remove(file);
+}
+
 // Observers hear of a removal in the step after it: the checkpoint between the two must not swallow it.
 TEST(Simulation, a_checkpoint_keeps_the_removals_that_observers_have_not_heard_of) {
   const Catalog catalog;

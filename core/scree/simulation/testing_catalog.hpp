@@ -28,12 +28,15 @@ class FreeFlight final : public TimeStepper {
     force_.resize(bodies.view.size());
     torque_.resize(bodies.view.size());
     services.forces(bodies.view, time, {force_, torque_});
+    StepSummary summary;
     for (std::size_t i = 0; i < bodies.view.size(); ++i) {
       if (bodies.view.motion[i] != Motion::dynamic) continue;
+      const Vec3 before = bodies.velocity[i];
       bodies.velocity[i] += dt * inverse_mass(bodies.view, static_cast<BodyIndex>(i)) * force_[i];
       bodies.position[i] += dt * bodies.velocity[i];
+      summary.work.force_work += dt * dot(force_[i], 0.5 * (before + bodies.velocity[i]));
     }
-    return {};
+    return summary;
   }
   [[nodiscard]] ContactView contacts() const override { return {}; }
 

@@ -159,6 +159,9 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
   }
   keep_results(bodies, problem);
   remember(bodies, dt);
+  summary.work = dvi::step_work({bodies, velocity_, angular_velocity_}, assembly_,
+                                {gyroscopic_, std::span{w_}.first(problem.bodies()), impulse_, angular_impulse_},
+                                services.executor(), work_);
   for (std::size_t k = 0; k < problem.bodies(); ++k) {
     const BodyIndex body = assembly_.bodies()[k];
     velocity_[body] += w_[k].linear;

@@ -15,6 +15,7 @@
 #include "scree/ccp/coulomb.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/time_stepper.hpp"
+#include "step_work.hpp"
 
 namespace scree {
 
@@ -70,6 +71,7 @@ class Dvi final : public TimeStepper {
   std::vector<Vec3> angular_impulse_;           ///< the same; empty when nothing resists rolling
   std::vector<ContactKey> keys_;                ///< per contact, as found
   std::vector<Vec3> world_impulse_, world_angular_impulse_;
+  std::vector<StepWork> work_;  ///< per chunk, workspace
   ContactMemory memory_;
   double memory_dt_ = 0.0;  ///< step that the remembered impulses belong to [s]
 };
