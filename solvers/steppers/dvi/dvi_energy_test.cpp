@@ -34,7 +34,8 @@ void drop_balls(World& w, double anisotropy) {
   std::mt19937_64 random{5};
   std::uniform_real_distribution<double> u{-0.01, 0.01};
   for (int k = 0; k < 12; ++k) {
-    const Vec3 centre = {0.1 * (k % 2) + u(random), 0.1 * (k / 2 % 2) + u(random), 0.05 + 0.1 * (k / 4)};
+    const int layer = k / 4, row = k / 2 % 2;
+    const Vec3 centre = {0.1 * (k % 2) + u(random), 0.1 * row + u(random), 0.05 + 0.1 * layer};
     const std::size_t i = w.add_sphere(centre, 0.05, 1000.0, {u(random), u(random), -1.0});
     w.bodies.inertia[i].x *= anisotropy;
     w.bodies.angular_velocity[i] = 100.0 * Vec3{u(random), u(random), u(random)};
@@ -107,7 +108,7 @@ TEST(dvi_energy, bouncing_ball_closes_to_the_known_term_and_loses_what_restituti
       }
       EXPECT_NEAR(kinetic(w) + potential(w) + loss, start + 0.5 * h * m * kG * now, 1e-12 * start * (k + 1));
     }
-    EXPECT_GT(expected, 0.9 * m * kG);  // of the metre that it fell
+    EXPECT_GT(expected, 0.75 * m * kG);  // two bounces: 1 - e^4 = 0.76
   }
 }
 
