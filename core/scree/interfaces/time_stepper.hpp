@@ -43,7 +43,7 @@ class StepServices {
 struct StepWork {
   double contact_loss = 0.0;  ///< - sum over contacts of gamma . (u0 + u1) / 2 [J], rolling and spinning included; what
                               ///< compliant contacts store counts as lost, and comes back
-  double boundary_work = 0.0;  ///< by bodies that forces do not move, through contacts: their surface moves [J]
+  double boundary_work = 0.0;  ///< by what moves as told, through contacts: walls, drums, surfaces of conveyors [J]
   double force_work = 0.0;     ///< by all force fields [J]
 
   StepWork& operator+=(const StepWork& o) {

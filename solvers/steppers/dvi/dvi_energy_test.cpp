@@ -50,7 +50,7 @@ struct Account {
 };
 
 // T1 - T0 = force_work + boundary_work - contact_loss holds for any impulses, so for badly solved problems too, with a floor
-// that rises, slides and turns, and for all rows that contacts may have.
+// that rises, slides and turns, surfaces that move against their bodies, and for all rows that contacts may have.
 class Accounts : public ::testing::TestWithParam<Account> {};
 
 TEST_P(Accounts, kinetic_energy_changes_by_work_less_loss_in_every_step) {
@@ -61,6 +61,9 @@ TEST_P(Accounts, kinetic_energy_changes_by_work_less_loss_in_every_step) {
   w.bodies.motion[0] = Motion::kinematic;
   w.bodies.velocity[0] = {0.3, -0.1, 0.2};
   w.bodies.angular_velocity[0] = {0.0, 0.0, 2.0};
+  w.bodies.surface_motion.resize(w.bodies.id.size());
+  w.bodies.surface_motion[0] = {{-0.2, 0.4, 0.0}, {0.0, 0.0, -3.0}};
+  w.bodies.surface_motion[3] = {{0.1, 0.0, 0.0}, {5.0, 0.0, 0.0}};
   StepWork sum;
   for (int k = 0; k < 60; ++k) {
     const double before = kinetic(w);
@@ -155,19 +158,26 @@ TEST(dvi_energy, plate_that_rises_lifts_a_ball) {
       start + 0.5 * h * m * kG * speed, 1e-10);
 }
 
-// A sphere on a belt of speed V, from rest until it rolls at 2/7 V: the belt does 2/7 m V^2, half of which is lost.
+// A sphere on a belt of speed V, from rest until it rolls at 2/7 V: the belt does 2/7 m V^2, half of which is lost. The belt is
+// a body that moves, or the surface of one that stays.
 TEST(dvi_energy, belt_that_sets_a_sphere_rolling_does_twice_the_work_that_arrives) {
   const double h = 1e-3, speed = 0.2;
-  World w{kFrictionModels[1]};
-  w.host.material({.friction = 0.5});
-  w.bodies.motion[0] = Motion::kinematic;
-  w.bodies.velocity[0] = {speed, 0, 0};
-  const std::size_t i = w.add_sphere({0, 0, 0.05}, 0.05);
-  const double m = w.bodies.mass[i];
-  const StepWork work = run(w, 400, h);
-  EXPECT_NEAR(work.boundary_work, 2.0 / 7.0 * m * speed * speed, 1e-9);
-  EXPECT_NEAR(work.contact_loss, 1.0 / 7.0 * m * speed * speed, 1e-9);
-  EXPECT_NEAR(kinetic(w), 1.0 / 7.0 * m * speed * speed, 1e-9);
+  for (const bool surface : {false, true}) {
+    World w{kFrictionModels[1]};
+    w.host.material({.friction = 0.5});
+    const std::size_t i = w.add_sphere({0, 0, 0.05}, 0.05);
+    if (surface) {
+      w.bodies.surface_motion = {Twist{{speed, 0, 0}, {}}, Twist{}};
+    } else {
+      w.bodies.motion[0] = Motion::kinematic;
+      w.bodies.velocity[0] = {speed, 0, 0};
+    }
+    const double m = w.bodies.mass[i];
+    const StepWork work = run(w, 400, h);
+    EXPECT_NEAR(work.boundary_work, 2.0 / 7.0 * m * speed * speed, 1e-9);
+    EXPECT_NEAR(work.contact_loss, 1.0 / 7.0 * m * speed * speed, 1e-9);
+    EXPECT_NEAR(kinetic(w), 1.0 / 7.0 * m * speed * speed, 1e-9);
+  }
 }
 
 TEST(dvi_energy, two_threads_give_the_bits_of_one) {

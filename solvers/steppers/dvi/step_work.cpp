@@ -1,6 +1,7 @@
 #include "step_work.hpp"
 
 #include "scree/parallel/executor.hpp"
+#include "surface_motion.hpp"
 
 namespace scree::dvi {
 
@@ -52,6 +53,17 @@ double contact_work(const ContactAssembly& assembly, const StepAnswer& answer, s
   return work + dot(answer.angular_impulse[k], in_frame(c, b.angular - a.angular));
 }
 
+/// The same for the motion of the surfaces against their bodies [J].
+double surface_work(const BodyView& bodies, const ContactAssembly& assembly, const StepAnswer& answer, std::size_t k) {
+  if (bodies.surface_motion.empty()) return 0.0;
+  const Contact& found = assembly.contacts()[k];
+  const CcpContact& c = assembly.geometry(k);
+  const double work = dot(answer.impulse[k], surface_slip(bodies, found, c));
+  if (assembly.rolling(k) == nullptr) return work;
+  const Vec3 turning = surface_motion(bodies, found.b).angular - surface_motion(bodies, found.a).angular;
+  return work + dot(answer.angular_impulse[k], in_frame(c, turning));
+}
+
 /// Sum of of(i, out) over 0 <= i < count, chunk by chunk.
 template <class Of>
 StepWork sum(std::size_t count, const Executor& executor, std::vector<StepWork>& partial, const Of& of) {
@@ -87,8 +99,9 @@ StepWork step_work(const FreeMotion& motion, const ContactAssembly& assembly, co
                          motion.angular_velocity[i] + answer.w[number].angular};
       return mean(v.begin(i), end);
     };
-    out.contact_loss -= contact_work(assembly, answer, k, middle(a, c.a), middle(b, c.b));
-    out.boundary_work -= contact_work(assembly, answer, k, v.told(a), v.told(b));
+    const double surfaces = surface_work(motion.bodies, assembly, answer, k);
+    out.contact_loss -= contact_work(assembly, answer, k, middle(a, c.a), middle(b, c.b)) + surfaces;
+    out.boundary_work -= contact_work(assembly, answer, k, v.told(a), v.told(b)) + surfaces;
   });
   return total;
 }

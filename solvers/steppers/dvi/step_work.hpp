@@ -6,7 +6,8 @@
 //
 //     T1 - T0 = (v1 - v0) . M (v0 + v1) / 2 = h f . (v0 + v1) / 2 + gamma . D^T (v0 + v1) / 2
 //
-// over the dynamic bodies. Where a contact's other body has its own motion, u has a part u_s from it, and
+// over the dynamic bodies. Where a contact's other body has its own motion, or surfaces move against their bodies
+// (surface_motion.hpp), u has a part u_s from that, and
 //     contact_loss = - sum gamma . (u0 + u1) / 2,   boundary_work = - sum gamma . u_s.
 #pragma once
 
