@@ -36,9 +36,9 @@ ContactMaterial contact_material(const Options& o) {
 
 PairRule pair_rule(const std::string& word) {
   static const std::map<std::string, PairRule> rules{{"minimum", PairRule::minimum},
-                                                      {"maximum", PairRule::maximum},
-                                                      {"mean", PairRule::mean},
-                                                      {"geometric_mean", PairRule::geometric_mean}};
+                                                     {"maximum", PairRule::maximum},
+                                                     {"mean", PairRule::mean},
+                                                     {"geometric_mean", PairRule::geometric_mean}};
   return rules.at(word);
 }
 
