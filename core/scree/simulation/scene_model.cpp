@@ -9,6 +9,7 @@
 #include "scree/config/suggest.hpp"
 #include "scree/config/validate.hpp"
 #include "scree/simulation/scene_filter.hpp"
+#include "scree/simulation/scene_motion.hpp"
 #include "scree/simulation/scene_sections.hpp"
 #include "scree/simulation/shape_builder.hpp"
 
@@ -191,6 +192,7 @@ SceneModel read_scene_model(const SceneDocument& document) {
   read_collision_groups(root, model);
   read_bodies(root, model);
   read_excluded_pairs(root, model);
+  read_prescribed_motions(root, model);
   return model;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scree/config/options.hpp"
+#include "scree/machine/prescribed/prescribed_motion.hpp"
 #include "scree/model/body_store.hpp"
 #include "scree/model/material.hpp"
 #include "scree/model/shape_set.hpp"
@@ -42,6 +43,8 @@ struct SceneModel {
   std::vector<std::string> collision_groups{"default"};  ///< by CollisionGroup
   std::vector<NamedOptions> collision_group_options;
   std::vector<Options> excluded_pair_options;
+  std::vector<PrescribedMotion> motions;
+  std::vector<Options> motion_options;
   ShapeRemarks remarks;
 };
 

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scree/simulation/scene_motion.hpp"
+
 namespace scree {
 namespace {
 
@@ -183,7 +185,9 @@ std::vector<SceneSection> model_sections() {
                .by_default(Vec3{}),
            Parameter::boolean("collides", "false: nothing touches the body").by_default(true), group_parameter(),
            Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
-           pose_parameters()}};
+           pose_parameters()},
+      {"prescribed_motion", SectionForm::list, "How a kinematic body moves, as functions of time or along a path.",
+       prescribed_motion_parameters()}};
 }
 
 std::vector<SceneSection> part_sections() {

@@ -139,8 +139,10 @@ StepSummary Simulation::State::take_step() {
   if (!parts.stepper.plugin->announces_motion()) backup.keep(bodies);
   try {
     const double end = static_cast<double>(steps + 1) * time_step;
+    motions.begin_step(bodies, end, time_step);
     const StepSummary summary = advance();
     if (!backup.kept) backup.keep(bodies);  // the stepper had nothing to move
+    motions.end_step(bodies);
     check_motion();
     host->tap_next({});
     advance_fields(end);
@@ -153,6 +155,7 @@ StepSummary Simulation::State::take_step() {
     return summary;
   } catch (...) {
     backup.restore(bodies);
+    motions.undo(bodies);
     backup.forget();
     failed = true;
     throw;

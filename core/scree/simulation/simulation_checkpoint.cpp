@@ -78,6 +78,11 @@ std::string describe(const SceneModel& model, const Parts& parts, bool motion_on
   std::vector<std::string> excluded;
   for (const Options& pair : model.excluded_pair_options) excluded.push_back(to_json_text(pair, -1));
   append(json, "excluded_pair", list_json(excluded));
+  if (!model.motion_options.empty()) {
+    std::vector<std::string> motions;
+    for (const Options& motion : model.motion_options) motions.push_back(to_json_text(motion, -1));
+    append(json, "prescribed_motion", list_json(motions));
+  }
   std::string kind;
   std::vector<std::string> list;
   const auto flush = [&] {

@@ -40,6 +40,7 @@ struct Simulation::State {
   Parts parts;
   std::vector<CollisionGroup> source_groups;  // by source
   BodyStore bodies;
+  PrescribedMotions motions{model.motions};
   std::vector<std::string> log;
   std::vector<std::string> warnings;
   std::optional<SetupServices> services;

@@ -134,7 +134,8 @@ std::unique_ptr<const TimeLaw> make_table_law(const Options& o) {
     series = read_time_series(o.path("file"), kColumns, "two numbers: time [s], value in SI", o.location("file"));
   } else {
     check_points(o);
-    series = {o.numbers("times"), o.numbers("values"), 1};
+    series.times = o.numbers("times");
+    series.values = o.numbers("values");
   }
   return std::make_unique<Table>(std::move(series.times), series.values, o.text("interpolation") == "monotone_cubic",
                                  o.text("outside") == "repeat");

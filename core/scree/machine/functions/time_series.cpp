@@ -49,6 +49,7 @@ TimeSeries read_time_series(const std::filesystem::path& file, std::span<const s
     check_row(row, columns, names, {file.string(), number, 0}, series);
     series.columns = row.numbers.size() - 1;
     series.times.push_back(row.numbers.front());
+    series.lines.push_back(number);
     series.values.insert(series.values.end(), row.numbers.begin() + 1, row.numbers.end());
   }
   if (series.times.size() < 2) {

@@ -17,7 +17,8 @@ namespace scree {
 /// Rows of equal length in order of time.
 struct TimeSeries {
   std::vector<double> times;   ///< [s], ascending
-  std::vector<double> values;  ///< row by row, `columns` each
+  std::vector<double> values;  ///< row by row, `columns` each [any unit]
+  std::vector<int> lines;      ///< of the file, one per row
   std::size_t columns = 0;     ///< beside the time
 
   [[nodiscard]] std::span<const double> row(std::size_t k) const {
