@@ -11,7 +11,7 @@ namespace scree {
 namespace {
 
 std::filesystem::path file_with(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::path{testing::TempDir()} / "scree_pose_path_test.csv";
+  std::filesystem::path file = std::filesystem::path{testing::TempDir()} / "scree_pose_path_test.csv";
   std::ofstream{file} << text;
   return file;
 }
