@@ -163,7 +163,10 @@ void add_ring(ReferenceSolid& s) {
   }
 }
 
+/// Edges of a polyhedron; the axis of a capsule is one, swept by a ball.
 void add_edges(const PrimitiveData& data, ReferenceSolid& s) {
+  if (s.kind == ShapeKind::box) s.edges = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  if (s.kind == ShapeKind::capsule) s.edges = {{0, 0, 1}};
   for (const Triangle& t : data.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (t[k] < t[(k + 1) % 3]) s.edges.push_back(normalized(data.vertices[t[(k + 1) % 3]] - data.vertices[t[k]]));
@@ -184,7 +187,6 @@ std::vector<ReferenceSolid> reference_solids(const PrimitiveData& data, const Po
     return solids;
   }
   solids.push_back({data.primitive.kind, data.primitive.size, pose, data.vertices, {}, {}});
-  if (data.primitive.kind == ShapeKind::box) solids[0].edges = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   add_edges(data, solids[0]);
   add_ring(solids[0]);
   return solids;

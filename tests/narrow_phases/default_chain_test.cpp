@@ -61,5 +61,48 @@ TEST(DefaultChain, covers_every_pair_of_kinds) {
   }
 }
 
+/// A pose in which the chain once gave a wrong contact.
+struct OncePose {
+  ShapeKind a, b;
+  int trial;
+};
+
+constexpr auto kBox = ShapeKind::box, kHull = ShapeKind::convex_hull, kCapsule = ShapeKind::capsule,
+               kMesh = ShapeKind::triangle_mesh;
+constexpr OncePose kOnce[] = {
+    // The walk to the nearest points ended with another simplex than the distance it reported.
+    {kBox, kBox, 234},
+    {kBox, kBox, 971},
+    {kBox, kBox, 1994},
+    {kBox, kHull, 1810},
+    {kBox, kHull, 2419},
+    {kBox, kMesh, 120},
+    {kBox, kMesh, 2083},
+    {kBox, kMesh, 3547},
+    // Four corners of one parallelogram were taken for a tetrahedron with the origin inside.
+    {kBox, kHull, 499},
+    // The deepest corner lay far beside the face that was the reference.
+    {kBox, kBox, 6341},
+    {kBox, kBox, 8859},
+    {kBox, kCapsule, 3389},
+    {kBox, kHull, 4116},
+    {kBox, kHull, 6026},
+    // Parallel edges that do not lie over each other.
+    {kCapsule, kMesh, 2157},
+    // A triangle that is cut beside its face; a corner so sharp that the way out looks against a triangle's normal.
+    {kBox, kMesh, 566},
+    {kHull, kMesh, 5224},
+};
+
+// Law: a fault that has been mended stays mended.
+TEST(DefaultChain, holds_where_it_once_failed) {
+  for (const OncePose& once : kOnce) {
+    const bool swapped = once.trial % 3 == 1;  // as the suite does
+    const NarrowPhasePose pose = narrow_phase_pose(swapped ? once.b : once.a, swapped ? once.a : once.b, once.trial);
+    EXPECT_EQ(fault_of(*make_phase(*entry_for(once.a, once.b)), pose), "")
+        << to_string(once.a) << " and " << to_string(once.b) << ", " << pose.description;
+  }
+}
+
 }  // namespace
 }  // namespace scree::test

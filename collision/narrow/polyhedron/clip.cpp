@@ -26,7 +26,8 @@ void cut(const Vec3& inwards, double offset, double slack, std::uint32_t edge, s
     const bool in0 = h0 >= -slack, in1 = h1 >= -slack;
     if (in0) kept.push_back(here);
     if (in0 == in1) continue;
-    const Vec3 at = here.at + (h0 / (h0 - h1)) * (next.at - here.at);
+    // Within the slack both may lie on one side of the plane.
+    const Vec3 at = here.at + std::clamp(h0 / (h0 - h1), 0.0, 1.0) * (next.at - here.at);
     kept.push_back(in0 ? ClipCorner{at, here.edge_out, edge} : ClipCorner{at, edge, here.edge_out});
   }
   polygon.swap(kept);

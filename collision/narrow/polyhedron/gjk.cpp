@@ -56,6 +56,7 @@ Distance distance(const PlacedPair& pair, double limit) {
   fetch_faces(pair.b);
   const double touching = kTouching * pair.size;
   double least = std::numeric_limits<double>::infinity();  // squared length of v, once v is a point of B - A
+  bool apart = false;
   for (int step = 0; step < kMostSteps; ++step) {
     SimplexCorner c;
     c.of_a = farthest(pair.a, v);
@@ -65,17 +66,20 @@ Distance distance(const PlacedPair& pair, double limit) {
     const double vw = dot(v, c.w);
     const double v2 = squared_norm(v);
     if (vw > 0.0 && vw * vw > limit * limit * v2) return out;
+    apart = apart || (vw > 0.0 && vw * vw > touching * touching * v2);
     // No corner lies deeper than v itself: v is the nearest point.
     const bool known = simplex.count > 0 && v2 - vw <= kPrecision * v2;
-    if (known || !simplex.add(c)) break;
-    const Vec3 nearer = simplex.reduce();
+    Simplex next = simplex;
+    if (known || !next.add(c)) break;
+    const Vec3 nearer = next.reduce(apart);
     const double d2 = squared_norm(nearer);
+    if (d2 >= least) break;  // rounding: no progress any more, and v is still that of the simplex before
+    simplex = next;
     if (d2 <= touching * touching) {
       write_ends(simplex, out);
       out.approach = Approach::touching;
       return out;
     }
-    if (d2 >= least) break;  // rounding: no progress any more
     least = d2;
     v = nearer;
   }

@@ -100,7 +100,11 @@ class Maker {
     const double same = kSamePoint * pair_.size;
     for (ManifoldPoint& known : out_.points) {
       if (squared_norm(known.at - at) > same * same) continue;
-      if (gap < known.gap) known.gap = gap;
+      if (gap < known.gap) {
+        known.at = at;
+        known.gap = gap;
+        least_ = std::min(least_, core_gap);
+      }
       return;
     }
     out_.points.push_back({at, gap, feature});
@@ -137,11 +141,30 @@ void face_points(const PlacedPair& pair, const Reference& reference, bool of_a, 
   }
 }
 
-/// A corner of the other solid that is deeper than all points of the face, beside it.
-void add_deepest(const PlacedPair& pair, const Reference& reference, bool of_a, Maker& maker) {
-  if (maker.has(reference.separation)) return;
-  const Vec3 deepest = of_a ? pair.corner_b(reference.deepest) : pair.a.corner(reference.deepest);
-  maker.add_over(reference, of_a, deepest, reference.separation, feature_of_corner(of_a ? 1 : 0, reference.deepest));
+/// The corner of the other solid that is deepest below the face, beside it.
+Vec3 deepest_of(const PlacedPair& pair, const Reference& reference, bool of_a) {
+  return of_a ? pair.corner_b(reference.deepest) : pair.a.corner(reference.deepest);
+}
+
+/// Whether a point lies in the reference solid, or no farther outside than the swept solids overlap.
+bool is_at(const PlacedPair& pair, bool of_a, const Vec3& point, double separation) {
+  const Polytope& own = of_a ? pair.a : pair.b;
+  const Vec3 at = of_a ? point : pair.to_b(point);
+  const double room = std::max(0.0, pair.radii() - separation) + kNearFaceGap * pair.size;
+  return std::all_of(own.faces.begin(), own.faces.end(),
+                     [&](const Face& face) { return dot(face.normal, at) - face.offset <= room; });
+}
+
+/// Where all points of the face are shallower than the meeting: the deepest corner, or, where that is far beside the solid, the
+/// place of the meeting itself.
+void add_deepest(const PlacedPair& pair, const Reference& reference, bool of_a, const Meeting& meeting, Maker& maker) {
+  if (maker.has(meeting.gap)) return;
+  const Vec3 deepest = deepest_of(pair, reference, of_a);
+  if (is_at(pair, of_a, deepest, reference.separation)) {
+    maker.add_over(reference, of_a, deepest, reference.separation, feature_of_corner(of_a ? 1 : 0, reference.deepest));
+  } else {
+    maker.add(meeting.on_a, meeting.on_b, meeting.gap, kNoFeature);
+  }
 }
 
 /// Whether a second corner is nearly as high along n as the highest one.
@@ -178,8 +201,16 @@ void line_points(const PlacedPair& pair, const Meeting& meeting, Maker& maker) {
   const double begin = dot(q - p, u) / uu, end = begin + uv / uu;
   const double low = std::max(0.0, std::min(begin, end)), high = std::min(1.0, std::max(begin, end));
   if (!(high - low > kSamePoint)) return;
+  const auto ends = [&](double s) { return std::pair{p + s * u, q + ((s - begin) * uu / uv) * v}; };
+  // They lie over each other: what crosses within their length is no farther apart than their angle allows.
+  const double aside = 2.0 * kParallelEdges * (high - low) * std::sqrt(uu) + kNearFaceGap * pair.size;
   for (const double s : {low, high}) {
-    const Vec3 on_a = p + s * u, on_b = q + ((s - begin) * uu / uv) * v;
+    const auto [on_a, on_b] = ends(s);
+    const Vec3 way = on_b - on_a;
+    if (squared_norm(way - dot(meeting.normal, way) * meeting.normal) > aside * aside) return;
+  }
+  for (const double s : {low, high}) {
+    const auto [on_a, on_b] = ends(s);
     maker.add(on_a, on_b, dot(meeting.normal, on_b - on_a), feature_of_edges(i, j, s == low ? 0 : 1));
   }
 }
@@ -196,7 +227,7 @@ void make_manifold(const PlacedPair& pair, const Meeting& meeting, double reach,
   out.normal = use_a ? reference.out : -reference.out;
   Maker maker{pair, reach, out};
   face_points(pair, reference, use_a, out, maker);
-  add_deepest(pair, reference, use_a, maker);
+  add_deepest(pair, reference, use_a, meeting, maker);
   if (out.points.size() > kDirections + 1) keep_support(out.normal, out.points);
   sort_by_feature(out.points);
 }

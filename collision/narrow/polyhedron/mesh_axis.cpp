@@ -14,6 +14,21 @@ constexpr double kSameHeight = 1e-6;
 /// Squared sine below which edges are parallel.
 constexpr double kParallel = 1e-10;
 
+/// Whether a direction at this cosine to the triangle's normal is another way out. At a sharp edge or corner of a closed mesh it may
+/// look against the normal; an open one holds the solid on its side.
+bool is_way_out(const MeshSurface& mesh, double cosine) {
+  return cosine < kUpright && (cosine > 0.0 || (mesh.closed() && cosine > -kUpright));
+}
+
+/// An edge is the lowest of the solid along m when both of its faces rise from it.
+bool is_lowest(const PlacedPair& pair, const Edge& edge, const Vec3& m) {
+  if (edge.left == kNoFace) return true;
+  const Vec3 in_b = pair.turn_back * m;
+  const Vec3 &left = pair.b.faces[edge.left].normal, &right = pair.b.faces[edge.right].normal;
+  const Vec3 way = pair.b.corner(edge.to) - pair.b.corner(edge.from);
+  return dot(cross(left, way), in_b) >= 0.0 && dot(cross(way, right), in_b) >= 0.0;
+}
+
 /// Calls visit(m, on the triangle, on the solid) for the cross products of the triangle's edges with those of the solid, where the
 /// normal cones of both hold m.
 template <class Visit>
@@ -29,14 +44,10 @@ void for_edge_pairs(const MeshSurface& mesh, const MeshTriangle& triangle, const
       const double length2 = squared_norm(m);
       if (length2 <= kParallel * squared_norm(u) * squared_norm(v)) continue;
       m *= (dot(m, out) < 0.0 ? -1.0 : 1.0) / std::sqrt(length2);
-      if (edge.left != kNoFace) {
-        // The edge is the lowest of the solid along m when both of its faces rise from it.
-        const Vec3 in_b = pair.turn_back * m;
-        const Vec3 &left = pair.b.faces[edge.left].normal, &right = pair.b.faces[edge.right].normal;
-        const Vec3 way = pair.b.corner(edge.to) - pair.b.corner(edge.from);
-        if (dot(cross(left, way), in_b) < 0.0 || dot(cross(way, right), in_b) < 0.0) continue;
+      for (const Vec3& way : {m, -m}) {
+        if (is_lowest(pair, edge, way) && is_way_out(mesh, dot(way, out)) && mesh.edge_admits(triangle, k, way))
+          visit(way, p, u, q, v);
       }
-      if (dot(m, out) < kUpright && mesh.edge_admits(triangle, k, m)) visit(m, p, u, q, v);
     }
   }
 }
@@ -66,8 +77,7 @@ Axis axis_out_of(const MeshSurface& mesh, const MeshTriangle& triangle, const Pl
   const auto better = [&](double s) { return s > best.separation + (best.normal == out ? bias : 0.0); };
   for (const Face& face : pair.b.faces) {
     const Vec3 m = -(pair.turn * face.normal);
-    const double cosine = dot(m, out);
-    if (cosine <= 0.0 || cosine >= kUpright) continue;
+    if (!is_way_out(mesh, dot(m, out))) continue;
     const double s = pair.separation(m);
     if (better(s) && admits(mesh, triangle, m)) best = {m, s, false, p, p};
   }

@@ -82,6 +82,13 @@ class Meeter {
         add_edge(cut.triangle, pair, cut.way);
       }
     }
+    if (!scratch_.found.empty()) return;
+    // What is cut beside all faces, as at a corner: the place where it is cut.
+    for (const Cut& cut : cuts) {
+      const TrianglePolytope triangle{mesh_[cut.triangle]};
+      make_edge_manifold({triangle.view(), mesh_pose_, solid_, pose_}, cut.way, reach_, scratch_.manifold);
+      add(cut.triangle);
+    }
   }
 
  private:

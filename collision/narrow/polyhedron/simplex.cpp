@@ -8,6 +8,8 @@ namespace {
 
 /// A triangle whose sine is smaller than the root of this is a line.
 constexpr double kFlat = 1e-20;
+/// The same of a tetrahedron, as two edges that cross make it from four pairs of their ends.
+constexpr double kFlatSolid = 1e-20;
 
 /// Nearest point of part of a simplex, with the weights of its corners.
 struct Foot {
@@ -15,6 +17,7 @@ struct Foot {
   std::array<double, 3> weight{};
 };
 
+/// Square to the edge, however close the origin is: two corners may lie far from it on either side.
 Foot on_segment(const Vec3& a, const Vec3& b) {
   const Vec3 e = b - a;
   const double length2 = squared_norm(e);
@@ -22,16 +25,33 @@ Foot on_segment(const Vec3& a, const Vec3& b) {
   if (!(t > 0.0)) return {a, {1.0, 0.0, 0.0}};
   if (t >= length2) return {b, {0.0, 1.0, 0.0}};
   const double s = t / length2;
-  return {a + s * e, {1.0 - s, s, 0.0}};
+  Vec3 v = a + s * e;
+  v -= (dot(v, e) / length2) * e;
+  return {v, {1.0 - s, s, 0.0}};
 }
 
-/// The best of the three sides, for triangles without area.
-Foot on_sides(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Foot best = on_segment(a, b);
-  const Foot bc = on_segment(b, c);
-  if (squared_norm(bc.v) < squared_norm(best.v)) best = {bc.v, {0.0, bc.weight[0], bc.weight[1]}};
-  const Foot ca = on_segment(c, a);
-  if (squared_norm(ca.v) < squared_norm(best.v)) best = {ca.v, {ca.weight[1], 0.0, ca.weight[0]}};
+/// The best of those sides across from a corner that `tries` names.
+Foot on_sides(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<bool, 3>& tries) {
+  Foot best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto take = [&](const Foot& side, const std::array<double, 3>& weight) {
+    const double d2 = squared_norm(side.v);
+    if (d2 >= least) return;
+    least = d2;
+    best = {side.v, weight};
+  };
+  if (tries[2]) {
+    const Foot ab = on_segment(a, b);
+    take(ab, {ab.weight[0], ab.weight[1], 0.0});
+  }
+  if (tries[0]) {
+    const Foot bc = on_segment(b, c);
+    take(bc, {0.0, bc.weight[0], bc.weight[1]});
+  }
+  if (tries[1]) {
+    const Foot ca = on_segment(c, a);
+    take(ca, {ca.weight[1], 0.0, ca.weight[0]});
+  }
   return best;
 }
 
@@ -39,38 +59,22 @@ Foot on_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
   const Vec3 n = cross(ab, ac);
   const double area2 = squared_norm(n);
-  if (!(area2 > kFlat * squared_norm(ab) * squared_norm(ac))) return on_sides(a, b, c);
-  const double d1 = -dot(ab, a), d2 = -dot(ac, a);
-  if (d1 <= 0.0 && d2 <= 0.0) return {a, {1.0, 0.0, 0.0}};
-  const double d3 = -dot(ab, b), d4 = -dot(ac, b);
-  if (d3 >= 0.0 && d4 <= d3) return {b, {0.0, 1.0, 0.0}};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    const double t = d1 / (d1 - d3);
-    return {a + t * ab, {1.0 - t, t, 0.0}};
-  }
-  const double d5 = -dot(ab, c), d6 = -dot(ac, c);
-  if (d6 >= 0.0 && d5 <= d6) return {c, {0.0, 0.0, 1.0}};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-    const double t = d2 / (d2 - d6);
-    return {a + t * ac, {1.0 - t, 0.0, t}};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {b + t * (c - b), {0.0, 1.0 - t, t}};
-  }
+  if (!(area2 > kFlat * squared_norm(ab) * squared_norm(ac))) return on_sides(a, b, c, {true, true, true});
   // Along the normal, so that the direction stays good however close the origin is.
-  const double scale = 1.0 / (va + vb + vc);
-  return {(dot(n, a) / area2) * n, {va * scale, vb * scale, vc * scale}};
+  const Vec3 v = (dot(n, a) / area2) * n;
+  const Vec3 to_a = a - v, to_b = b - v, to_c = c - v;
+  const double wa = dot(n, cross(to_b, to_c)), wb = dot(n, cross(to_c, to_a)), wc = dot(n, cross(to_a, to_b));
+  // The nearest point lies on a side that the origin is beyond.
+  if (wa <= 0.0 || wb <= 0.0 || wc <= 0.0) return on_sides(a, b, c, {wa <= 0.0, wb <= 0.0, wc <= 0.0});
+  const double scale = 1.0 / (wa + wb + wc);
+  return {v, {wa * scale, wb * scale, wc * scale}};
 }
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 
 }  // namespace
 
-Vec3 Simplex::reduce() {
+Vec3 Simplex::reduce(bool apart) {
   std::array<std::uint32_t, 3> part{0, 1, 2};
   Foot foot;
   if (count == 1) {
@@ -86,8 +90,10 @@ Vec3 Simplex::reduce() {
     for (const auto& side : kSides) {
       const Vec3 &p = corner[side[0]].w, &q = corner[side[1]].w, &r = corner[side[2]].w, &s = corner[side[3]].w;
       const Vec3 n = cross(q - p, r - p);
-      // Origin and fourth corner on the same side of this plane; flat tetrahedra have no inside.
-      if (dot(n, s - p) * -dot(n, p) > 0.0) continue;
+      // Origin and fourth corner on the same side of this plane. Flat tetrahedra have no inside, whatever rounding says.
+      const double height = dot(n, s - p);
+      const bool flat = height * height <= kFlatSolid * squared_norm(n) * squared_norm(s - p);
+      if (!apart && !flat && height * -dot(n, p) > 0.0) continue;
       const Foot there = on_triangle(p, q, r);
       const double d2 = squared_norm(there.v);
       if (d2 >= least) continue;

@@ -30,8 +30,9 @@ struct Simplex {
     corner[count++] = c;
     return true;
   }
-  /// Reduces the simplex and returns its nearest point; zero with all four corners kept when the origin lies inside.
-  Vec3 reduce();
+  /// Reduces the simplex and returns its nearest point; zero with all four corners kept when the origin lies inside. `apart`: it
+  /// is known not to lie inside.
+  Vec3 reduce(bool apart);
 };
 
 }  // namespace scree::polyhedron
