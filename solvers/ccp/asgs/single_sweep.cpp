@@ -39,7 +39,7 @@ bool SingleSweep::takes(const CcpProblem& problem) {
 }
 
 void SingleSweep::start(const CcpProblem& problem, std::span<const double> gamma, std::span<const Twist> w) {
-  sequence_.build_whole(problem);
+  sequence_.build_spread(problem);
   grouping_.build(problem, sequence_);
   fill(problem);
   for (std::size_t at = 0; at < groups_.size(); ++at) {

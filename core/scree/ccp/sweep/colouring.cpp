@@ -14,15 +14,14 @@ void Colouring::build(const CcpProblem& problem, const Sequence& sequence) {
     for (std::size_t at = sequence.first()[chunk]; at < sequence.first()[chunk + 1]; ++at) {
       const CcpContact& contact = problem.contacts[sequence.contacts()[at]];
       for (const std::uint32_t body : {contact.a, contact.b}) {
-        if (problem.inverse_mass[body] > 0.0) visit(body);
+        if (problem.inverse_mass[body] > 0.0 && sequence.hub(body) == Sequence::kNoHub) visit(body);
       }
     }
   };
   for (std::size_t chunk = 0; chunk < chunk_count; ++chunk) {
     std::uint64_t taken = 0;
     bodies_of(chunk, [&](std::uint32_t body) { taken |= colours_of_body_[body]; });
-    const bool of_hubs = chunk >= sequence.ordinary_chunks();
-    const auto colour = static_cast<std::uint32_t>(of_hubs ? kMaxColours : std::countr_one(taken));
+    const auto colour = static_cast<std::uint32_t>(std::countr_one(taken));
     colour_[chunk] = colour;
     if (colour == kMaxColours) continue;
     bodies_of(chunk, [&](std::uint32_t body) { colours_of_body_[body] |= std::uint64_t{1} << colour; });

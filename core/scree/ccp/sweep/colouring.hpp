@@ -1,10 +1,10 @@
 // Colouring: an order of the contacts in which threads may work side by side.
 //
 // The chunks of a Sequence get colours such that chunks of one colour share no
-// movable body. A sweep goes colour by colour; inside a colour the order of
-// chunks cannot show, inside a chunk contacts go in order. Chunks of contacts of
-// a hub (a free drum) share it all, and get no colour: they come last, one after
-// the other, as would any that fit none.
+// movable body but hubs, of which each has its copies (hub_copies.hpp). A sweep
+// goes colour by colour; inside a colour the order of chunks cannot show, inside
+// a chunk contacts go in order. Chunks that fit no colour come last, one after
+// the other.
 #pragma once
 
 #include <cstdint>

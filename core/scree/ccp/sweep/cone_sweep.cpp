@@ -68,7 +68,7 @@ void ConeSweep::bind(const CcpProblem& problem, ContactSweep& contacts, const Bl
   alike.inverse_mass = problem.inverse_mass;
   alike.contacts = pairs;
   Sequence sequence;
-  sequence.build_whole(alike);
+  sequence.build_spread(alike);
   Grouping grouping;
   grouping.build(alike, sequence);
   groups_.assign(grouping.groups.size(), ConeGroup{});

@@ -5,6 +5,7 @@
 // that the problem asks for (layout.hpp), loops over the groups of a chunk and calls update(), or something of its own.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "scree/ccp/problem.hpp"
 #include "scree/ccp/sweep/colouring.hpp"
 #include "scree/ccp/sweep/grouping.hpp"
+#include "scree/ccp/sweep/hub_copies.hpp"
 #include "scree/ccp/sweep/layout.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
 #include "scree/ccp/twist.hpp"
@@ -41,7 +43,8 @@ class ContactSweep {
   [[nodiscard]] bool isotropic() const { return inertias_.empty(); }
   /// Groups of four contacts.
   [[nodiscard]] std::size_t groups() const { return grouping_.groups.size(); }
-  /// First or second bodies of the lanes of group k; immovable ones and those of empty lanes are past the problem's last.
+  /// First or second bodies of the lanes of group k; immovable ones, those of empty lanes and copies of hubs are past the problem's
+  /// last.
   [[nodiscard]] const std::array<std::uint32_t, 4>& bodies_of(std::size_t k, bool first) const {
     return first ? groups_[k].a : groups_[k].b;
   }
@@ -55,39 +58,49 @@ class ContactSweep {
       compliant ? visit(layout<false, true>()) : visit(layout<false, false>());
     }
   }
-  /// Those of the problem, and one more a chunk, which stands for nothing.
+  /// Those of the problem, one more a chunk, which stands for nothing, and copies of hubs, which count in a sweep only.
   [[nodiscard]] std::span<sweep::Body> bodies() { return bodies_; }
 
   [[nodiscard]] std::size_t chunks() const { return grouping_.first.size() - 1; }
   /// Calls visit(chunk, first group, one past the last group) chunk by chunk in the order of a sweep, or `backward` in the
   /// opposite one (the visitor then goes backwards through its groups). Chunks of one colour may run at the same time.
   template <class Visit>
-  void for_chunks(bool backward, const Executor* executor, const Visit& visit) const {
-    const auto one = [&](std::size_t chunk) { visit(chunk, grouping_.first[chunk], grouping_.first[chunk + 1]); };
-    if (!coloured_) return chunks() == 0 ? void() : one(0);
-    const std::vector<std::uint32_t>&order = colouring_.chunks(), &first = colouring_.first();
-    const std::size_t colours = first.size() - 1;
-    const auto left_over = [&] {  // chunks without a colour, one after the other
-      const std::size_t count = order.size() - first.back();
-      for (std::size_t k = 0; k < count; ++k) one(backward ? order[order.size() - 1 - k] : order[first.back() + k]);
-    };
-    if (backward) left_over();
-    for (std::size_t c = 0; c < colours; ++c) {
-      const std::size_t colour = backward ? colours - 1 - c : c;
-      const std::size_t begin = first[colour], count = first[colour + 1] - begin;
-      const auto several = [&](std::size_t from, std::size_t to) {
-        for (std::size_t k = from; k < to; ++k) one(order[begin + k]);
-      };
-      if (count == 1 || executor == nullptr || executor->threads() == 1) {
-        several(0, count);
-      } else {
-        executor->for_chunks(count, 1, std::cref(several));
-      }
+  void for_chunks(bool backward, const Executor* executor, const Visit& visit) {
+    for (std::size_t p = 0; p < phases(); ++p) {
+      const std::size_t phase = backward ? phases() - 1 - p : p;
+      copies_.spread(phase, bodies_);
+      go_through(phase, backward, executor,
+                 [&](std::size_t chunk) { visit(chunk, grouping_.first[chunk], grouping_.first[chunk + 1]); });
+      copies_.collect(phase, bodies_);
     }
-    if (!backward) left_over();
   }
 
  private:
+  /// Chunks that may run at the same time: a colour, or, last of all, those that go one after the other.
+  [[nodiscard]] std::size_t phases() const {
+    if (!coloured_) return std::min<std::size_t>(1, chunks());
+    return colours() + (colouring_.first().back() < colouring_.chunks().size() ? 1 : 0);
+  }
+  [[nodiscard]] std::size_t colours() const { return colouring_.first().size() - 1; }
+  [[nodiscard]] std::size_t first_of_phase(std::size_t phase) const {
+    return phase <= colours() ? colouring_.first()[phase] : colouring_.chunks().size();
+  }
+  template <class Visit>
+  void go_through(std::size_t phase, bool backward, const Executor* executor, const Visit& one) const {
+    if (!coloured_) return one(0);
+    const std::size_t begin = first_of_phase(phase), end = first_of_phase(phase + 1), count = end - begin;
+    const auto several = [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) one(colouring_.chunks()[begin + k]);
+    };
+    if (phase == colours()) {
+      for (std::size_t k = 0; k < count; ++k) one(colouring_.chunks()[backward ? end - 1 - k : begin + k]);
+    } else if (count == 1 || executor == nullptr || executor->threads() == 1) {
+      several(0, count);
+    } else {
+      executor->for_chunks(count, 1, std::cref(several));
+    }
+  }
+  void choose_bodies(const CcpProblem& problem);
   void bind_bodies(const CcpProblem& problem);
   void bind_groups(const CcpProblem& problem, const Settings& settings);
   /// Fills lane `lane` of group `at` with contact i and its step.
@@ -101,6 +114,7 @@ class ContactSweep {
   sweep::Sequence sequence_;
   sweep::Grouping grouping_;
   sweep::Colouring colouring_;
+  sweep::HubCopies copies_;
   std::vector<sweep::Body> bodies_;
   std::vector<sweep::Inertia> inertias_;
   std::vector<sweep::Group> groups_;

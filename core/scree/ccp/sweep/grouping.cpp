@@ -1,25 +1,55 @@
 #include "scree/ccp/sweep/grouping.hpp"
 
+#include <algorithm>
+#include <span>
+
 namespace scree::sweep {
 
 namespace {
 template <std::size_t lanes>
 constexpr std::size_t kQueue = 12 * lanes;
+
+/// Lanes of a group that may have the same hub: just enough to take its contacts along with the others, a quarter more than their
+/// share since they do not come evenly.
+std::size_t hub_lanes(const CcpProblem& problem, const Sequence& sequence, std::size_t chunk, std::size_t lanes) {
+  if (sequence.hubs() == 0) return lanes;
+  std::size_t of_hubs = 0;
+  const std::size_t first = sequence.first()[chunk], last = sequence.first()[chunk + 1];
+  for (std::size_t at = first; at < last; ++at) {
+    const CcpContact& c = problem.contacts[sequence.contacts()[at]];
+    of_hubs += sequence.hub(c.a) != Sequence::kNoHub || sequence.hub(c.b) != Sequence::kNoHub ? 1 : 0;
+  }
+  const std::size_t wanted = 5 * lanes * of_hubs / 4;
+  return std::max<std::size_t>(1, (wanted + last - first - 1) / (last - first));
 }
+
+}  // namespace
 
 template <std::size_t lanes>
 void GroupingOf<lanes>::build(const CcpProblem& problem, const Sequence& sequence) {
   groups.clear();
   first.clear();
   std::array<std::uint32_t, kQueue<lanes>> queue{};
-  const auto share = [&](std::uint32_t i, std::uint32_t j) {
-    const CcpContact &x = problem.contacts[i], &y = problem.contacts[j];
-    const auto meets = [&](std::uint32_t k) { return (k == y.a || k == y.b) && problem.inverse_mass[k] > 0.0; };
-    return meets(x.a) || meets(x.b);
+  // What a group may have once, and what it may have `most` times.
+  const auto once = [&](std::uint32_t k) {
+    return problem.inverse_mass[k] > 0.0 && sequence.hub(k) == Sequence::kNoHub;
+  };
+  const auto has = [&](std::uint32_t i, std::uint32_t k) {
+    return problem.contacts[i].a == k || problem.contacts[i].b == k;
+  };
+  const auto fits_into = [&](std::uint32_t i, std::span<const std::uint32_t> group, std::size_t most) {
+    if (group.size() == lanes) return false;
+    for (const std::uint32_t k : {problem.contacts[i].a, problem.contacts[i].b}) {
+      const bool hub = sequence.hub(k) != Sequence::kNoHub;
+      if (!hub && !once(k)) continue;
+      const auto others = std::count_if(group.begin(), group.end(), [&](std::uint32_t j) { return has(j, k); });
+      if (static_cast<std::size_t>(others) >= (hub ? most : 1)) return false;
+    }
+    return true;
   };
   for (std::size_t chunk = 0; chunk < sequence.chunks(); ++chunk) {
     first.push_back(static_cast<std::uint32_t>(groups.size()));
-    const std::size_t end = sequence.first()[chunk + 1];
+    const std::size_t end = sequence.first()[chunk + 1], most = hub_lanes(problem, sequence, chunk, lanes);
     std::size_t next = sequence.first()[chunk], waiting = 0;
     while (next < end || waiting > 0) {
       while (waiting < kQueue<lanes> && next < end) queue[waiting++] = sequence.contacts()[next++];
@@ -28,9 +58,7 @@ void GroupingOf<lanes>::build(const CcpProblem& problem, const Sequence& sequenc
       group.fill(kNoContact);
       std::size_t members = 0, kept = 0;
       for (std::size_t k = 0; k < waiting; ++k) {
-        bool fits = members < group.size();
-        for (std::size_t g = 0; g < members && fits; ++g) fits = !share(queue[k], group[g]);
-        if (fits) {
+        if (fits_into(queue[k], {group.data(), members}, most)) {
           group[members++] = queue[k];
         } else {
           queue[kept++] = queue[k];

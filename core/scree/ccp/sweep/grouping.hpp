@@ -1,4 +1,4 @@
-// Puts contacts into groups, one contact a vector lane, that share no movable body.
+// Puts contacts into groups, one contact a vector lane, that share no movable body but hubs, which a few lanes may have.
 #pragma once
 
 #include <array>

@@ -5,6 +5,7 @@
 #include "scree/base/release.hpp"
 #include "scree/ccp/contact_residual.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
+#include "scree/ccp/sweep/sequence.hpp"
 
 namespace scree {
 
@@ -93,7 +94,14 @@ Southwell::Outcome Southwell::relax(std::span<double> gamma, std::span<Twist> w,
   if (!has_neighbours_) find_neighbours();
   const CcpProblem& problem = delassus_->problem();
   std::size_t visits = 0;
-  for (; count_ > 0 && visits < budget; ++visits) {
+  bool hub_moved = false;
+  for (; visits < budget; ++visits) {
+    if (count_ == 0) {
+      if (!std::exchange(hub_moved, false)) break;
+      visits += problem.contacts.size();
+      if (!collect(gamma, w, target)) return {false, visits};
+      if (count_ == 0) break;
+    }
     const std::uint32_t i = queue_[head_];
     head_ = head_ + 1 < queue_.size() ? head_ + 1 : 0;
     --count_;
@@ -103,10 +111,12 @@ Southwell::Outcome Southwell::relax(std::span<double> gamma, std::span<Twist> w,
     update(i, *u, gamma, w);
     const CcpContact& c = problem.contacts[i];
     for (const std::uint32_t body : {c.a, c.b}) {
-      for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k) push(contacts_[k]);
+      const bool hub = first_[body + 1] - first_[body] > sweep::Sequence::kHub;
+      hub_moved = hub_moved || hub;
+      for (std::uint32_t k = first_[body]; k < first_[body + 1] && !hub; ++k) push(contacts_[k]);
     }
   }
-  return {count_ == 0, visits};
+  return {count_ == 0 && !hub_moved, visits};
 }
 
 }  // namespace scree

@@ -4,7 +4,8 @@
 // above the tolerance when sweeps over all of them had done a third of the work. Relaxation as Southwell had it (1940,
 // "Relaxation Methods in Engineering Science") goes where the residual is: a queue holds the contacts that miss the target; each
 // is updated, and its neighbours, contacts of the same bodies, join the queue when they miss it now. Every update is that of a
-// sweep, which lowers the objective. When the queue is empty the problem is solved.
+// sweep, which lowers the objective. When the queue is empty the problem is solved. The contacts of a body that very many touch do
+// not join with each of its moves: all contacts are looked at again when the queue is empty.
 //
 // One contact after the other, on the calling thread, in an order that depends on the problem and the impulses only.
 #pragma once
