@@ -29,6 +29,7 @@ TILE_SIDE = 0.1  # [m]
 COST_TILES = ((2, 2), (8, 4))        # 32 000 and 256 000 of a tile of 8000
 MEMORY_BODIES = (20000, 100000)
 LARGE_TILES = (10, 9)                # 720 000, with two million contacts
+MILLION_TILES = (14, 9)              # 1 008 000
 
 SCENE = """
 [simulation]
@@ -227,6 +228,22 @@ def measure_large(program, tile, folder, iterations):
                                         "peak [byte/contact]": round(run.memory / contacts), "cpu [s]": round(run.cpu, 1)}])
 
 
+def measure_million(program, tile, folder, steps, iterations):
+    """A step of the whole simulation of a million spheres: its time by phase, and the largest resident set of the run."""
+    bed = folder / "bed_million.txt"
+    count, half_x, half_y = repeat(tile, *MILLION_TILES, bed)
+    scene = folder / "million.toml"
+    write_scene(scene, BED_SOURCE.replace("{file}", str(bed)).replace("{count}", str(count)), half_x, half_y, iterations)
+    run = Measured(program, scene, folder / "million", steps)
+    # The first step makes all buffers.
+    phases = {name: run.median(name, 1) for name in run.columns if name.startswith("seconds_")}
+    write_table(folder / "million.csv", [{"bodies": count, "contacts": round(run.last("contacts")),
+                                          "a step [wall s]": round(sum(phases.values()), 2),
+                                          **{f"{name.split(' ')[0].removeprefix('seconds_')} [s]": round(value, 3)
+                                             for name, value in phases.items()},
+                                          "run [cpu s]": round(run.cpu, 1), "peak [GiB]": round(run.memory / 2**30, 2)}])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("program", help="the scree program")
@@ -234,7 +251,7 @@ def main():
     parser.add_argument("--bed", type=pathlib.Path, help="settled bed to repeat; made with examples/settle if left out")
     parser.add_argument("--steps", type=int, default=5, help="steps N of the shorter run")
     parser.add_argument("--iterations", type=int, default=50, help="of the solver, in every step")
-    parser.add_argument("--only", choices=("cost", "memory", "large"), help="one of them")
+    parser.add_argument("--only", choices=("cost", "memory", "large", "million"), help="one of them")
     wanted = parser.parse_args()
     folder = wanted.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
@@ -247,6 +264,8 @@ def main():
         measure_memory(wanted.program, tile, folder, wanted.iterations)
     if wanted.only in (None, "large"):
         measure_large(wanted.program, tile, folder, wanted.iterations)
+    if wanted.only in (None, "million"):
+        measure_million(wanted.program, tile, folder, wanted.steps, wanted.iterations)
 
 
 if __name__ == "__main__":
