@@ -20,6 +20,7 @@
 
 #include "bed.hpp"
 #include "plugins.hpp"
+#include "scree/base/release.hpp"
 #include "world.hpp"
 
 namespace scree::bench {
@@ -250,6 +251,7 @@ void run_all(const Settings& settings) {
 }  // namespace scree::bench
 
 int main(int argc, char** argv) {
+  scree::map_large_blocks();  // as scree does
   try {
     scree::bench::run_all(scree::bench::read_arguments(argc, argv));
     return 0;

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,11 +36,11 @@ std::unique_ptr<Interface> make_plugin(const std::string& name) {
 inline bool same_bits(std::span<const Contact> l, std::span<const Contact> r) {
   const auto same = [](const Contact& x, const Contact& y) {
     const auto bits = [](const Contact& c) {
-      return std::array<double, 7>{c.point.x, c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, c.gap};
+      const std::array<double, 7> values{c.point.x, c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, c.gap};
+      return std::bit_cast<std::array<std::uint64_t, 7>>(values);
     };
-    const auto of_x = bits(x), of_y = bits(y);
     return x.a == y.a && x.b == y.b && x.primitive_a == y.primitive_a && x.primitive_b == y.primitive_b &&
-           x.feature == y.feature && std::memcmp(of_x.data(), of_y.data(), sizeof of_x) == 0;
+           x.feature == y.feature && bits(x) == bits(y);
   };
   return l.size() == r.size() && std::equal(l.begin(), l.end(), r.begin(), same);
 }

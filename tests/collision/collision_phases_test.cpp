@@ -1,6 +1,8 @@
 // Every broad phase, the closed forms and the pipeline together, loaded as a scene loads them.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "collision_parts.hpp"
 #include "scree/collision/collision_pipeline.hpp"
 #include "scree/model/body_store.hpp"
@@ -30,6 +32,8 @@ struct Scene {
     }
     bodies.add(body);
   }
+  struct Empty {};
+  explicit Scene(Empty) {}
   Scene() {
     add(shape_data(primitive_data(ShapeKind::cylinder, {0.5, 0.5, 0}, true)), {}, Motion::kinematic);
     add(shape_data(plane_data()), {{0, 0, -0.3}, {}}, Motion::fixed);
@@ -97,6 +101,35 @@ TEST(CollisionPhases, every_overlap_of_spheres_is_found) {
     found += c.gap < 0.0 && radius(c.a) >= 0.0 && radius(c.b) >= 0.0;
   EXPECT_GT(expected, 50u);
   EXPECT_EQ(found, expected);
+}
+
+/// Spheres over two planes, one of which turns; some of them fixed, one lost.
+Scene scene_of_spheres(bool planes) {
+  Scene scene{Scene::Empty{}};
+  for (int i = 0; i < 2000; ++i) {
+    if (planes && i == 700) scene.add(shape_data(plane_data()), {{0, 0, -0.1}, {}}, Motion::fixed);
+    if (planes && i == 900) scene.add(shape_data(plane_data()), scene.random.pose(0.05), Motion::kinematic);
+    const double radius = i % 50 == 0 ? 3e-2 : scene.random.uniform(4e-3, 8e-3);
+    scene.add(shape_data(sphere_data(radius)), scene.random.pose(0.12), i % 9 == 0 ? Motion::fixed : Motion::dynamic);
+  }
+  Pose lost;
+  lost.position.x = std::numeric_limits<double>::quiet_NaN();
+  scene.add(shape_data(sphere_data(5e-3)), lost);
+  return scene;
+}
+
+// Law: the same of spheres alone, of which a phase may take the balls without boxes, and of spheres and planes.
+TEST(CollisionPhases, contacts_of_spheres_do_not_depend_on_phase_or_threads) {
+  for (const bool planes : {false, true}) {
+    const Scene scene = scene_of_spheres(planes);
+    const std::vector<Contact> expected = contacts_of(scene, "brute_force", 1);
+    EXPECT_GT(expected.size(), 1000u);
+    for (const char* const phase : {"grid", "bullet_dbvt", "bullet_sap", "fcl_tree"}) {
+      for (const int threads : {1, 2}) {
+        EXPECT_TRUE(same_bits(contacts_of(scene, phase, threads), expected)) << phase << ", threads " << threads;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ class PairScene {
       kind_[i] = shapes_.primitives()[i].kind;
       ball_[i] = {pose_[i].position, shapes_.primitives()[i].bounding_radius};
     }
-    const ColliderView view{key_, body_, primitive_, ordinal_, pose_, box_, movable_, kind_, ball_};
+    const ColliderView view{key_, body_, primitive_, ordinal_, pose_, movable_, kind_, ball_};
     const ColliderPair pair{0, 1, reach};
     ContactBuffer out;
     phase.collide(view, {&pair, 1}, out);
@@ -81,7 +81,6 @@ class PairScene {
   std::vector<std::uint32_t> primitive_{0, 1};
   std::vector<std::uint32_t> ordinal_{0, 0};
   std::vector<Pose> pose_{2};
-  std::vector<Aabb> box_{2};
   std::vector<char> movable_{1, 1};
   std::vector<ShapeKind> kind_ = std::vector<ShapeKind>(2);
   std::vector<BoundingBall> ball_{2};

@@ -13,22 +13,25 @@
 #include <limits>
 #include <vector>
 
+#include "rows.hpp"
 #include "scree/base/uninitialised.hpp"
 #include "scree/collision/collider.hpp"
 
 namespace scree::grid {
+
+/// A coordinate in single precision. What is absurdly far is moved nearer, in order, so that its square remains a number.
+inline float rounded(double x) { return static_cast<float>(std::clamp(x, -1e17, 1e17)); }
 
 /// In single precision, about the grid's origin [m]; grown by more than its rounding.
 struct Ball {
   float x = 0.0f, y = 0.0f, z = 0.0f, r = 0.0f;
 
   Ball() = default;
-  Ball(const Vec3& centre, double radius)
-      : x{static_cast<float>(centre.x)}, y{static_cast<float>(centre.y)}, z{static_cast<float>(centre.z)} {
+  Ball(const Vec3& centre, double radius) : x{rounded(centre.x)}, y{rounded(centre.y)}, z{rounded(centre.z)} {
     // Rounding of coordinates, of their differences and of the squares: below 8 units in the last place, 6e-8 each.
     constexpr double kGrowth = 5e-7;
     const double far = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z);
-    r = static_cast<float>(radius * (1.0 + kGrowth) + kGrowth * far + 1e-30);
+    r = static_cast<float>(std::min(radius * (1.0 + kGrowth) + kGrowth * far + 1e-30, 1e18));
   }
 };
 
@@ -38,17 +41,21 @@ class Balls {
   static constexpr std::size_t kLanes = 8;
 
   void resize(std::size_t n) {
-    for (auto* column : {&x_, &y_, &z_, &r_}) column->resize(n + kLanes);  // a load may read beyond the last one
+    stride_ = n + kLanes;  // a load may read beyond the last one
+    all_.resize(4 * stride_);
   }
   void set(std::size_t i, const Ball& ball) {
-    x_[i] = ball.x;
-    y_[i] = ball.y;
-    z_[i] = ball.z;
-    r_[i] = ball.r;
+    all_[i] = ball.x;
+    all_[stride_ + i] = ball.y;
+    all_[2 * stride_ + i] = ball.z;
+    all_[3 * stride_ + i] = ball.r;
   }
-  void release() {
-    for (auto* column : {&x_, &y_, &z_, &r_}) UninitialisedVector<float>{}.swap(*column);
+  [[nodiscard]] Ball operator[](std::size_t i) const {
+    Ball ball;
+    ball.x = x_of(i), ball.y = y_of(i), ball.z = z_of(i), ball.r = r_of(i);
+    return ball;
   }
+  void release() { UninitialisedVector<float>{}.swap(all_); }
 
   /// Two sorted items whose balls meet.
   struct Near {
@@ -57,9 +64,17 @@ class Balls {
   /// Writes the pairs of i with those of first..last-1 that it meets to `near`, which has room for kLanes more than that, and
   /// returns how many. What is not a number meets all.
   std::size_t meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const;
+  /// The same for the five rows.
+  std::size_t meeting(std::uint32_t i, const Rows& rows, Near* near) const;
 
  private:
-  UninitialisedVector<float> x_, y_, z_, r_;
+  [[nodiscard]] const float& x_of(std::size_t i) const { return all_[i]; }
+  [[nodiscard]] const float& y_of(std::size_t i) const { return all_[stride_ + i]; }
+  [[nodiscard]] const float& z_of(std::size_t i) const { return all_[2 * stride_ + i]; }
+  [[nodiscard]] const float& r_of(std::size_t i) const { return all_[3 * stride_ + i]; }
+
+  UninitialisedVector<float> all_;  // all x, then y, z and r: one block
+  std::size_t stride_ = 0;
 };
 
 #ifdef __AVX2__
@@ -77,15 +92,16 @@ alignas(32) inline constexpr auto kFrontLanes = [] {
 }();
 
 inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const {
-  const __m256 x = _mm256_set1_ps(x_[i]), y = _mm256_set1_ps(y_[i]), z = _mm256_set1_ps(z_[i]);
-  const __m256 r = _mm256_set1_ps(r_[i]);
+  const float *const xs = all_.data(), *const ys = xs + stride_, *const zs = ys + stride_, *const rs = zs + stride_;
+  const __m256 x = _mm256_set1_ps(x_of(i)), y = _mm256_set1_ps(y_of(i)), z = _mm256_set1_ps(z_of(i));
+  const __m256 r = _mm256_set1_ps(r_of(i));
   const __m256i one = _mm256_set1_epi32(static_cast<int>(i));
   std::size_t count = 0;
   std::uint32_t k = first;
   // Most ranges fit into one round; it is done in any case, so that nothing has to be guessed.
   do {
-    const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(&x_[k]), x), dy = _mm256_sub_ps(_mm256_loadu_ps(&y_[k]), y);
-    const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(&z_[k]), z), radii = _mm256_add_ps(_mm256_loadu_ps(&r_[k]), r);
+    const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(xs + k), x), dy = _mm256_sub_ps(_mm256_loadu_ps(ys + k), y);
+    const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(zs + k), z), radii = _mm256_add_ps(_mm256_loadu_ps(rs + k), r);
     const __m256 squares =
         _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
     const int hits = _mm256_movemask_ps(_mm256_cmp_ps(squares, _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
@@ -104,14 +120,57 @@ inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uin
   return count;
 }
 
+inline std::size_t Balls::meeting(std::uint32_t i, const Rows& rows, Near* near) const {
+  if (!rows.are_short) {
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < rows.last.size(); ++row) {
+      count += meeting(i, rows.first[row], rows.last[row], near + count);
+    }
+    return count;
+  }
+  const float *const xs = all_.data(), *const ys = xs + stride_, *const zs = ys + stride_, *const rs = zs + stride_;
+  const __m256 x = _mm256_set1_ps(x_of(i)), y = _mm256_set1_ps(y_of(i)), z = _mm256_set1_ps(z_of(i));
+  const __m256 r = _mm256_set1_ps(r_of(i));
+  // A bit an item, a byte a row.
+  std::uint64_t meet = 0;
+  for (std::size_t row = 0; row < rows.last.size(); ++row) {
+    const std::uint32_t k = rows.first[row];
+    const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(xs + k), x), dy = _mm256_sub_ps(_mm256_loadu_ps(ys + k), y);
+    const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(zs + k), z), radii = _mm256_add_ps(_mm256_loadu_ps(rs + k), r);
+    const __m256 squares =
+        _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
+    const int hits = _mm256_movemask_ps(_mm256_cmp_ps(squares, _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
+    meet |= std::uint64_t{static_cast<std::uint32_t>(hits)} << (8 * row);
+  }
+  meet &= rows.items;
+  const auto count = static_cast<std::size_t>(std::popcount(meet));
+  const auto write_next = [&](Near& place) {
+    const auto bit = static_cast<unsigned>(std::countr_zero(meet));
+    place = {i, rows.first[bit / 8] + bit % 8};
+    meet &= meet - 1;
+  };
+  // Few have more than four, which are written without a look at how many there are.
+  for (std::size_t n = 0; n < 4; ++n) write_next(near[n]);
+  for (std::size_t n = 4; n < count; ++n) write_next(near[n]);
+  return count;
+}
+
 #else
 
 inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const {
   std::size_t count = 0;
   for (std::uint32_t k = first; k < last; ++k) {
-    const float dx = x_[k] - x_[i], dy = y_[k] - y_[i], dz = z_[k] - z_[i], radii = r_[k] + r_[i];
+    const float dx = x_of(k) - x_of(i), dy = y_of(k) - y_of(i), dz = z_of(k) - z_of(i), radii = r_of(k) + r_of(i);
     near[count] = {i, k};  // overwritten by the next one unless it counts
     count += static_cast<std::size_t>(!(dx * dx + dy * dy + dz * dz > radii * radii));
+  }
+  return count;
+}
+
+inline std::size_t Balls::meeting(std::uint32_t i, const Rows& rows, Near* near) const {
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < rows.last.size(); ++row) {
+    count += meeting(i, rows.first[row], rows.last[row], near + count);
   }
   return count;
 }

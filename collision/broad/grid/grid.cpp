@@ -1,9 +1,5 @@
 #include "grid.hpp"
 
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
-
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -17,7 +13,6 @@ namespace {
 
 constexpr std::size_t kBoxesPerChunk = 8192;
 constexpr std::size_t kSearchesPerChunk = 4096;
-constexpr std::uint32_t kMovable = 0x80000000u;
 /// Items ahead of the present one that are fetched into the cache.
 constexpr std::size_t kPrefetch = 16;
 constexpr std::uint32_t kBinsPerOctave = 8;
@@ -32,42 +27,86 @@ float rounded_down(double x) {
   return f - (std::abs(f) * 2.5e-7f + std::numeric_limits<float>::min());
 }
 
-double centre(float lower, float minus_upper) { return 0.5 * (double{lower} - double{minus_upper}); }
+/// True for planes and for what diverged: no number, larger than a planet, or so far that a double no longer tells what it touches.
+/// One of these would make all other balls look alike.
+bool is_lost(const Vec3& centre, double radius) {
+  constexpr double kLargest = 1e7;    // [m]
+  constexpr double kFarthest = 1e15;  // in radii
+  return !(radius <= kLargest && std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) <= kFarthest * radius);
+}
+
+/// A ball that meets nothing.
+grid::Ball nowhere() {
+  grid::Ball ball;
+  ball.r = -1.0f;
+  return ball;
+}
 
 }  // namespace
 
-void Grid::copy_boxes(const BoxView& boxes, const Executor& executor) {
+Grid::Item Grid::item_of(const BoxView& boxes, std::size_t i, const Vec3& origin) {
+  const Vec3 lower = boxes.box[i].lower - origin;
+  const Vec3 upper = boxes.box[i].upper - origin;
+  return {{rounded_down(lower.x), rounded_down(lower.y), rounded_down(lower.z)},
+          static_cast<std::uint32_t>(i) | (boxes.movable[i] != 0 ? kMovable : 0u),
+          {rounded_down(-upper.x), rounded_down(-upper.y), rounded_down(-upper.z)},
+          boxes.owner[i]};
+}
+
+/// The middle box as origin: single precision is finest where the grains are.
+bool Grid::choose_origin(const BoxView& boxes) {
   const std::size_t n = boxes.size();
-  // The middle box as origin: single precision is finest where the grains are.
-  origin_ = boxes.box[n / 2].lower;
-  placed_.resize(n);
-  size_.resize(n);
-  executor.for_chunks(n, kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
+  if (!balls_alone_) {
+    origin_ = boxes.box[n / 2].lower;
+    return true;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (n / 2 + k) % n;
+    if (is_lost(boxes.ball[i].centre, boxes.ball[i].radius + boxes.margin[i])) continue;
+    origin_ = boxes.ball[i].centre;
+    return true;
+  }
+  return false;
+}
+
+void Grid::place_boxes(const BoxView& boxes, const Executor& executor) {
+  spots_.resize(boxes.size());
+  executor.for_chunks(boxes.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const Vec3 lower = boxes.box[i].lower - origin_;
-      const Vec3 upper = boxes.box[i].upper - origin_;
-      Placed& placed = placed_[i];
-      Item& item = placed.item;
-      item.lower = {rounded_down(lower.x), rounded_down(lower.y), rounded_down(lower.z)};
-      item.minus_upper = {rounded_down(-upper.x), rounded_down(-upper.y), rounded_down(-upper.z)};
-      item.box = static_cast<std::uint32_t>(i) | (boxes.movable[i] != 0 ? kMovable : 0u);
-      item.owner = boxes.owner[i];
-      placed.ball = boxes.ball.empty() ? grid::Ball{0.5 * (lower + upper), 0.5 * norm(upper - lower)}
-                                       : grid::Ball{boxes.ball[i].centre - origin_, boxes.ball[i].radius};
-      size_[i] = 0.0f;
-      for (std::size_t k = 0; k < 3; ++k) size_[i] = std::max(size_[i], -item.minus_upper[k] - item.lower[k]);
+      if (balls_alone_) {
+        const Vec3 centre = boxes.ball[i].centre - origin_;
+        const double radius = boxes.ball[i].radius + boxes.margin[i];
+        spots_[i] = is_lost(centre, radius) ? nowhere() : grid::Ball{centre, radius};
+      } else {
+        const Item item = item_of(boxes, i, origin_);
+        float size = 0.0f;
+        for (std::size_t k = 0; k < 3; ++k) size = std::max(size, -item.minus_upper[k] - item.lower[k]);
+        const Vec3 middle = 0.5 * (boxes.box[i].lower + boxes.box[i].upper) - origin_;
+        spots_[i].x = grid::rounded(middle.x);
+        spots_[i].y = grid::rounded(middle.y);
+        spots_[i].z = grid::rounded(middle.z);
+        spots_[i].r = 0.5f * std::min(size, 1e18f);
+      }
     }
   });
 }
 
-void Grid::choose_sizes() {
-  const float largest = *std::max_element(size_.begin(), size_.end());
+bool Grid::choose_sizes() {
+  float largest = -1.0f;
+  for (const grid::Ball& spot : spots_) largest = std::max(largest, 2.0f * spot.r);
+  if (largest < 0.0f) return false;
   // What is smaller than this shares the finest level.
   const float smallest = std::ldexp(largest, -static_cast<int>(kLevels - 3));
   const std::uint32_t last = bin_of(largest);
   const std::uint32_t first = std::min(last, bin_of(std::max(smallest, std::numeric_limits<float>::min())));
   histogram_.assign(last - first + 1, 0);
-  for (const float s : size_) ++histogram_[std::max(bin_of(s), first) - first];
+  largest_.assign(last - first + 1, 0.0f);
+  for (const grid::Ball& spot : spots_) {
+    if (spot.r < 0.0f) continue;
+    const std::uint32_t bin = std::max(bin_of(2.0f * spot.r), first) - first;
+    ++histogram_[bin];
+    largest_[bin] = std::max(largest_[bin], 2.0f * spot.r);
+  }
 
   // Levels are octaves; where the octaves begin is free. Cost of a box: cells that are larger than it hold more
   // neighbours, and each populated coarser level is searched too.
@@ -94,10 +133,15 @@ void Grid::choose_sizes() {
   }
   level_count_ = (last - first_bin_) / kBinsPerOctave + 1;
   for (std::size_t l = 0; l < level_count_; ++l) {
-    const auto next = first_bin_ + kBinsPerOctave * static_cast<std::uint32_t>(l + 1);
-    levels_[l].cell = 1.0001 * double{lower_edge_of(next)};
+    const std::uint32_t begin = first_bin_ + kBinsPerOctave * static_cast<std::uint32_t>(l);
+    float widest = lower_edge_of(begin);
+    for (std::uint32_t bin = std::max(begin, first); bin <= std::min(begin + kBinsPerOctave - 1, last); ++bin) {
+      widest = std::max(widest, largest_[bin - first]);
+    }
+    levels_[l].cell = 1.0001 * double{widest};
     levels_[l].inverse_cell = 1.0 / levels_[l].cell;
   }
+  return true;
 }
 
 std::size_t Grid::level_of(float size) const {
@@ -105,212 +149,120 @@ std::size_t Grid::level_of(float size) const {
 }
 
 void Grid::fit_levels(const Executor& executor) {
-  constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min();
-  constexpr std::int32_t kHigh = std::numeric_limits<std::int32_t>::max();
-  extents_.resize(Executor::chunk_count(placed_.size(), kBoxesPerChunk));
-  executor.for_chunks(placed_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
+  constexpr float kFar = std::numeric_limits<float>::max();
+  extents_.resize(Executor::chunk_count(spots_.size(), kBoxesPerChunk));
+  executor.for_chunks(spots_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     Extents& extents = extents_[first / kBoxesPerChunk];
-    extents.fill({{kHigh, kHigh, kHigh}, {kLow, kLow, kLow}, 0});
+    std::fill_n(extents.begin(), level_count_, Extent{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}, 0});
     for (std::size_t i = first; i < last; ++i) {
-      const std::size_t l = level_of(size_[i]);
-      Extent& extent = extents[l];
+      const grid::Ball& spot = spots_[i];
+      if (spot.r < 0.0f) continue;
+      Extent& extent = extents[level_of(2.0f * spot.r)];
       ++extent.boxes;
+      const std::array<float, 3> at{spot.x, spot.y, spot.z};
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t cell = levels_[l].cell_of(centre(placed_[i].item.lower[k], placed_[i].item.minus_upper[k]));
-        extent.lower[k] = std::min(extent.lower[k], cell);
-        extent.upper[k] = std::max(extent.upper[k], cell);
-        placed_[i].at[k] = cell;
+        extent.lower[k] = std::min(extent.lower[k], at[k]);
+        extent.upper[k] = std::max(extent.upper[k], at[k]);
       }
     }
   });
-  std::uint32_t cells = 0;
+  cells_ = 0;
   for (std::size_t l = 0; l < level_count_; ++l) {
+    grid::Level& level = levels_[l];
     Extent whole = extents_[0][l];
-    for (const Extents& part : extents_) {
+    for (std::size_t part = 1; part < extents_.size(); ++part) {
+      const Extent& extent = extents_[part][l];
       for (std::size_t k = 0; k < 3; ++k) {
-        whole.lower[k] = std::min(whole.lower[k], part[l].lower[k]);
-        whole.upper[k] = std::max(whole.upper[k], part[l].upper[k]);
+        whole.lower[k] = std::min(whole.lower[k], extent.lower[k]);
+        whole.upper[k] = std::max(whole.upper[k], extent.upper[k]);
       }
-      if (&part != &extents_[0]) whole.boxes += part[l].boxes;
+      whole.boxes += extent.boxes;
     }
-    levels_[l].boxes = whole.boxes;
-    levels_[l].first_cell = cells;
+    level.boxes = whole.boxes;
+    level.first_cell = cells_;
     if (whole.boxes == 0) continue;
-    levels_[l].fit(whole.lower, whole.upper);
-    cells += levels_[l].cell_count();
+    std::array<std::int32_t, 3> lower, upper;
+    for (std::size_t k = 0; k < 3; ++k) {
+      lower[k] = level.cell_of(double{whole.lower[k]});
+      upper[k] = level.cell_of(double{whole.upper[k]});
+    }
+    level.fit(lower, upper);
+    cells_ += level.cell_count();
   }
-  cell_begin_.assign(std::size_t{cells} + 2, 0);
 }
 
-void Grid::sort_into_cells(const Executor& executor) {
-  executor.for_chunks(placed_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
+void Grid::sort_into_cells(const BoxView& boxes, const Executor& executor) {
+  const std::size_t n = spots_.size();
+  cell_.resize(n);
+  executor.for_chunks(n, kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const grid::Level& level = levels_[level_of(size_[i])];
-      std::array<std::uint32_t, 3> at;
-      for (std::size_t k = 0; k < 3; ++k) {
-        at[k] = level.axis[k].store(placed_[i].at[k] - level.axis[k].origin);
-      }
-      placed_[i].cell = level.index(at[0], at[1], at[2]);
+      const grid::Ball& spot = spots_[i];
+      const grid::Level& level = levels_[spot.r < 0.0f ? 0 : level_of(2.0f * spot.r)];
+      const auto at = [&](std::size_t k, float x) {
+        return level.axis[k].store(level.cell_of(double{x}) - level.axis[k].origin);
+      };
+      cell_[i] = spot.r < 0.0f ? cells_ : level.index(at(0, spot.x), at(1, spot.y), at(2, spot.z));
     }
   });
   // Counting sort; counts land one place late, so that the scatter leaves the beginnings behind.
-  for (const Placed& placed : placed_) ++cell_begin_[placed.cell + 2];
+  cell_begin_.assign(std::size_t{cells_} + 3, 0);
+  for (const std::uint32_t cell : cell_) ++cell_begin_[std::size_t{cell} + 2];
   for (std::size_t c = 2; c < cell_begin_.size(); ++c) cell_begin_[c] += cell_begin_[c - 1];
-  const std::size_t n = placed_.size();
   order_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) order_[cell_begin_[placed_[i].cell + 1]++] = static_cast<std::uint32_t>(i);
-  sorted_.resize(n);
-  sorted_cell_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) order_[cell_begin_[std::size_t{cell_[i]} + 1]++] = static_cast<std::uint32_t>(i);
   balls_.resize(n);
+  sorted_.resize(balls_alone_ ? 0 : n);
   executor.for_chunks(n, kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      if (k + kPrefetch < last) __builtin_prefetch(&placed_[order_[k + kPrefetch]]);
-      const Placed& placed = placed_[order_[k]];
-      sorted_[k] = placed.item;
-      sorted_cell_[k] = placed.cell;
-      balls_.set(k, placed.ball);
+      if (k + kPrefetch < last) __builtin_prefetch(&spots_[order_[k + kPrefetch]]);
+      const std::size_t i = order_[k];
+      if (balls_alone_) {
+        balls_.set(k, spots_[i]);
+        continue;
+      }
+      if (k + kPrefetch < last) __builtin_prefetch(&boxes.box[order_[k + kPrefetch]]);
+      sorted_[k] = item_of(boxes, i, origin_);
+      const Aabb& box = boxes.box[i];
+      balls_.set(k, boxes.ball.empty()
+                        ? grid::Ball{0.5 * (box.lower + box.upper) - origin_, 0.5 * norm(box.upper - box.lower)}
+                        : grid::Ball{boxes.ball[i].centre - origin_, boxes.ball[i].radius + boxes.margin[i]});
     }
   });
-}
-
-/// True when the lower corner of neither lies beyond the upper one of the other.
-bool Grid::meets(const Item& item, const Item& other) {
-#ifdef __AVX__
-  // lower + (minus_upper of the other) <= 0 would round: halves are exchanged and signs turned instead.
-  const __m256 corners = _mm256_load_ps(item.lower.data());
-  const __m256 exchanged = _mm256_permute2f128_ps(corners, corners, 1);
-  const __m256 limit = _mm256_xor_ps(exchanged, _mm256_set1_ps(-0.0f));
-  // Six of the eight numbers are coordinates.
-  return (_mm256_movemask_ps(_mm256_cmp_ps(_mm256_load_ps(other.lower.data()), limit, _CMP_LE_OQ)) & 0x77) == 0x77;
-#else
-  bool meet = true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    meet &= (other.lower[k] <= -item.minus_upper[k]) & (other.minus_upper[k] <= -item.lower[k]);
-  }
-  return meet;
-#endif
-}
-
-void Grid::keep_meeting(Found& found) const {
-  found.pairs.resize(found.near_count + 1);
-  // Every pair is written, and overwritten by the next one unless it counts: a branch here would be guessed wrong often.
-  CandidatePair* const pairs = found.pairs.data();
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < found.near_count; ++k) {
-    const Item& item = sorted_[found.near[k].one];
-    const Item& other = sorted_[found.near[k].other];
-    pairs[count] = {item.box & ~kMovable, other.box & ~kMovable};
-    count += meets(item, other) & (((item.box | other.box) & kMovable) != 0) & (item.owner != other.owner);
-  }
-  found.pair_count = count;
-}
-
-void Grid::search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const {
-  const Item& item = sorted_[i];
-  std::array<grid::CellRange, 3> range;
-  for (std::size_t k = 0; k < 3; ++k) {
-    range[k] = level.axis[k].clip(level.cell_of(double{item.lower[k]} - 0.5 * level.cell),
-                                  level.cell_of(0.5 * level.cell - double{item.minus_upper[k]}));
-    if (range[k].last < range[k].first) return;
-  }
-  const grid::LevelAxis& x_axis = level.axis[0];
-  const std::uint32_t x0 = x_axis.store(range[0].first);
-  const std::uint32_t x1 = x_axis.store(range[0].last);
-  const auto scan = [&](std::uint32_t row, std::uint32_t from, std::uint32_t to) {
-    const std::uint32_t first = std::max(cell_begin_[row + from], begin), last = cell_begin_[row + to + 1];
-    if (first >= last) return;
-    found.make_room(last - first);
-    found.near_count += balls_.meeting(i, first, last, &found.near[found.near_count]);
-  };
-  for (std::int32_t z = range[2].first; z <= range[2].last; ++z) {
-    for (std::int32_t y = range[1].first; y <= range[1].last; ++y) {
-      // Cells of a row follow each other, and so do their boxes.
-      const std::uint32_t row = level.index(0, level.axis[1].store(y), level.axis[2].store(z));
-      if (x0 <= x1) {
-        scan(row, x0, x1);
-      } else {
-        scan(row, x0, static_cast<std::uint32_t>(x_axis.stored) - 1);
-        scan(row, 0, x1);
-      }
-    }
-  }
-}
-
-void Grid::find_rows(const grid::Level& level, std::uint32_t cell, Rows& rows) const {
-  rows.cell = cell;
-  const auto width = static_cast<std::uint32_t>(level.axis[0].stored);
-  const auto depth = static_cast<std::uint32_t>(level.axis[1].stored);
-  const auto height = static_cast<std::uint32_t>(level.axis[2].stored);
-  const std::uint32_t x = (cell - level.first_cell) % width;
-  const std::uint32_t y = (cell - level.first_cell) / width % depth;
-  const std::uint32_t z = (cell - level.first_cell) / width / depth;
-  const std::uint32_t x0 = x > 0 ? x - 1 : 0, x1 = std::min(x + 1, width - 1);
-  const auto set = [&](std::size_t k, std::uint32_t row_y, std::uint32_t row_z, bool exists) {
-    rows.first[k] = exists ? cell_begin_[level.index(k == 0 ? x : x0, row_y, row_z)] : 0;
-    rows.last[k] = exists ? cell_begin_[level.index(x1, row_y, row_z) + 1] : 0;
-  };
-  set(0, y, z, true);
-  set(1, y + 1, z, y + 1 < depth);
-  const bool above = z + 1 < height;
-  set(2, y - 1, z + 1, above && y > 0);
-  set(3, y, z + 1, above);
-  set(4, y + 1, z + 1, above && y + 1 < depth);
-}
-
-void Grid::search_rows(std::uint32_t i, const Rows& rows, Found& found) const {
-  std::size_t most = 0;
-  for (std::size_t k = 0; k < 5; ++k) most += rows.last[k] - rows.first[k];
-  found.make_room(most);
-  grid::Balls::Near* near = &found.near[found.near_count];
-  near += balls_.meeting(i, i + 1, rows.last[0], near);
-  for (std::size_t k = 1; k < 5; ++k) near += balls_.meeting(i, rows.first[k], rows.last[k], near);
-  found.near_count = static_cast<std::size_t>(near - found.near.data());
-}
-
-void Grid::search(std::size_t first, std::size_t last, Found& found) const {
-  found.near_count = 0;
-  found.make_room(4 * (last - first));
-  std::size_t own = 0;
-  Rows rows;
-  for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-    while (own + 1 < level_count_ && i >= cell_begin_[levels_[own + 1].first_cell]) ++own;
-    const grid::Level& level = levels_[own];
-    // Of two boxes of one level the first one finds the other.
-    if (level.is_wrapped()) {
-      search_level(i, level, i + 1, found);
-    } else {
-      if (sorted_cell_[i] != rows.cell) find_rows(level, sorted_cell_[i], rows);
-      search_rows(i, rows, found);
-    }
-    for (std::size_t l = own + 1; l < level_count_; ++l) {
-      if (levels_[l].boxes > 0) search_level(i, levels_[l], 0, found);
-    }
-  }
-  keep_meeting(found);
 }
 
 void Grid::find_pairs(const BoxView& boxes, const Executor& executor, std::vector<CandidatePair>& out) {
-  if (boxes.size() < 2) return;
-  copy_boxes(boxes, executor);
-  choose_sizes();
+  balls_alone_ = boxes.box.empty();
+  if (boxes.size() < 2 || !choose_origin(boxes)) return;
+  place_boxes(boxes, executor);
+  if (!choose_sizes()) return;
   fit_levels(executor);
-  sort_into_cells(executor);
-  const std::size_t chunks = Executor::chunk_count(sorted_.size(), kSearchesPerChunk);
+  sort_into_cells(boxes, executor);
+  const std::size_t count = cell_begin_[cells_];  // of what lies somewhere
+  const std::size_t chunks = Executor::chunk_count(count, kSearchesPerChunk);
+  if (executor.threads() == 1) {
+    found_.resize(std::max<std::size_t>(found_.size(), 1));
+    for (std::size_t first = 0; first < count; first += kSearchesPerChunk) {
+      const std::size_t last = std::min(first + kSearchesPerChunk, count);
+      search(first, last, found_[0], out);
+      // Room for the rest, as far as this can be told.
+      if (first == 0) out.reserve(out.size() * count / last + count / 8);
+    }
+    return;
+  }
   if (found_.size() < chunks) found_.resize(chunks);
-  executor.for_chunks(sorted_.size(), kSearchesPerChunk, [&](std::size_t first, std::size_t last) {
-    search(first, last, found_[first / kSearchesPerChunk]);
+  executor.for_chunks(count, kSearchesPerChunk, [&](std::size_t first, std::size_t last) {
+    Found& found = found_[first / kSearchesPerChunk];
+    found.pairs.clear();
+    search(first, last, found, found.pairs);
   });
   std::size_t total = out.size();
-  for (std::size_t k = 0; k < chunks; ++k) total += found_[k].pair_count;
+  for (std::size_t k = 0; k < chunks; ++k) total += found_[k].pairs.size();
   out.reserve(total);
-  for (std::size_t k = 0; k < chunks; ++k) {
-    const auto begin = found_[k].pairs.begin();
-    out.insert(out.end(), begin, begin + static_cast<std::ptrdiff_t>(found_[k].pair_count));
-  }
+  for (std::size_t k = 0; k < chunks; ++k) out.insert(out.end(), found_[k].pairs.begin(), found_[k].pairs.end());
 }
 
 void Grid::release_workspace() {
-  release(placed_, size_, extents_, cell_begin_, order_, sorted_, sorted_cell_, found_);
+  release(spots_, extents_, cell_, cell_begin_, order_, sorted_, found_);
   balls_.release();
 }
 

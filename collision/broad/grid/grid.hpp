@@ -23,6 +23,7 @@ namespace scree {
 class Grid : public BroadPhase {
  public:
   void find_pairs(const BoxView& boxes, const Executor& executor, std::vector<CandidatePair>& out) override;
+  [[nodiscard]] bool takes_balls_alone() const override { return true; }
   void release_workspace() override;
 
  private:
@@ -35,68 +36,61 @@ class Grid : public BroadPhase {
     std::array<float, 3> minus_upper;  // [m]
     std::uint32_t owner;
   };
-  /// What is sorted: an item and its ball, on one cache line, since the sort reads them in any order.
-  struct alignas(64) Placed {
-    Item item;
-    grid::Ball ball;
-    std::array<std::int32_t, 3> at;  // cell along each axis
-    std::uint32_t cell;              // index
-  };
   /// What the search of a chunk finds.
   struct Found {
-    UninitialisedVector<grid::Balls::Near> near;
+    UninitialisedVector<grid::Balls::Near> near;  // of some items
     std::size_t near_count = 0;
-    UninitialisedVector<CandidatePair> pairs;
-    std::size_t pair_count = 0;
+    std::vector<CandidatePair> pairs;
 
     /// Room for so many more, and for a whole round of lanes.
     void make_room(std::size_t more) {
       if (near.size() < near_count + more + grid::Balls::kLanes) near.resize(2 * (near_count + more) + 64);
     }
   };
-  static_assert(sizeof(Placed) == 64);
-  static bool meets(const Item& query, const Item& item);
+  static Item item_of(const BoxView& boxes, std::size_t i, const Vec3& origin);
+  static bool meets(const Item& item, const Item& other);
+  static bool are_wanted(const Item& item, const Item& other);
   static constexpr std::size_t kLevels = 40;
-  /// Cells that the boxes of one level occupy, in one chunk.
+  static constexpr std::uint32_t kMovable = 0x80000000u;
+  /// Where the boxes of one level lie, in one chunk [m].
   struct Extent {
-    std::array<std::int32_t, 3> lower;
-    std::array<std::int32_t, 3> upper;
+    std::array<float, 3> lower;
+    std::array<float, 3> upper;
     std::uint32_t boxes;
   };
   using Extents = std::array<Extent, kLevels>;
 
-  void copy_boxes(const BoxView& boxes, const Executor& executor);
-  void choose_sizes();
+  bool choose_origin(const BoxView& boxes);
+  void place_boxes(const BoxView& boxes, const Executor& executor);
+  /// False when nothing lies anywhere.
+  bool choose_sizes();
   void fit_levels(const Executor& executor);
-  void sort_into_cells(const Executor& executor);
+  void sort_into_cells(const BoxView& boxes, const Executor& executor);
   [[nodiscard]] std::size_t level_of(float size) const;
-  void search(std::size_t first, std::size_t last, Found& found) const;
-  /// Rows of cells that hold what the items of one cell can meet and that come no earlier in the order.
-  struct Rows {
-    std::uint32_t cell = ~0u;
-    std::array<std::uint32_t, 5> first,
-        last;  // sorted items; the cell's own row begins anywhere before its items' ends
-  };
-  void find_rows(const grid::Level& level, std::uint32_t cell, Rows& rows) const;
-  void search_rows(std::uint32_t i, const Rows& rows, Found& found) const;
+  void search(std::size_t first, std::size_t last, Found& found, std::vector<CandidatePair>& out) const;
+  void find_rows(const grid::Level& level, std::uint32_t cell, grid::Rows& rows) const;
   /// Looks for what item i can meet among the items from `begin` on in the cells of `level`.
   void search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const;
-  void keep_meeting(Found& found) const;
+  /// Appends those of found.near that meet to `out`.
+  void keep_meeting(Found& found, std::vector<CandidatePair>& out) const;
 
   Vec3 origin_;
-  UninitialisedVector<Placed> placed_;    // in the order of the BoxView
-  UninitialisedVector<float> size_;       // longest edge [m]
+  bool balls_alone_ = false;
+  /// By box: the middle, and half the longest edge [m]; negative for what lies nowhere. The ball, where there are no boxes.
+  UninitialisedVector<grid::Ball> spots_;
   std::vector<std::uint32_t> histogram_;  // of sizes, eight bins an octave
+  std::vector<float> largest_;            // size in each bin [m]
   std::uint32_t first_bin_ = 0;           // of the finest level
   std::array<grid::Level, kLevels> levels_;
   std::size_t level_count_ = 0;
   std::vector<Extents> extents_;              // by chunk
+  std::uint32_t cells_ = 0;                   // one more holds what lies nowhere
+  UninitialisedVector<std::uint32_t> cell_;   // of each box
   std::vector<std::uint32_t> cell_begin_;     // first sorted item of each cell, and one more
   UninitialisedVector<std::uint32_t> order_;  // box of each sorted item
-  UninitialisedVector<Item> sorted_;
-  UninitialisedVector<std::uint32_t> sorted_cell_;
-  grid::Balls balls_;         // of the sorted items
-  std::vector<Found> found_;  // by chunk
+  UninitialisedVector<Item> sorted_;          // empty where there are no boxes
+  grid::Balls balls_;                         // of the sorted items
+  std::vector<Found> found_;                  // by chunk
 };
 
 }  // namespace scree

@@ -30,10 +30,13 @@ struct Solid {
 /// All primitives that were bound.
 struct SolidSet {
   const ShapeSet* shapes = nullptr;
-  std::vector<Solid> solids;    ///< by primitive
+  std::vector<std::uint32_t>
+      solid_of;  ///< by primitive: its place in `solids`; a sphere has none, it may be one of millions
+  std::vector<Solid> solids;
   std::vector<Sphere> spheres;  ///< of clusters
   std::vector<MeshTree> meshes;
 
+  [[nodiscard]] Solid solid(std::uint32_t primitive) const;
   /// The spheres of a round solid; `single` is room for the only one of a sphere, and has to live as long as the result.
   [[nodiscard]] std::span<const Sphere> spheres_of(const Solid& s, Sphere& single) const {
     if (s.kind != ShapeKind::sphere) return std::span{spheres}.subspan(s.first, s.sphere_count);

@@ -1,5 +1,7 @@
 #include "sphere_cluster.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "contact_writer.hpp"
@@ -19,6 +21,12 @@ constexpr unsigned kPairShift = 24;
 /// Pairs ahead of the present one whose second collider is fetched into the cache.
 constexpr std::size_t kPrefetch = 12;
 
+void prefetch(const ColliderView& colliders, ColliderIndex i) {
+  __builtin_prefetch(&colliders.ball[i]);
+  __builtin_prefetch(&colliders.body[i]);
+  __builtin_prefetch(&colliders.ordinal[i]);
+}
+
 /// Buffers of one collide() call.
 struct Scratch {
   MeshScratch mesh;
@@ -29,14 +37,46 @@ struct Scratch {
 /// Unit vector along v; up when v is too short to have a direction.
 Vec3 direction(const Vec3& v, double length) { return length > 1e-300 ? v / length : Vec3{0, 0, 1}; }
 
-/// Two single spheres.
-void collide_spheres(const BoundingBall& a, const BoundingBall& b, ContactWriter& write) {
-  const Vec3 from_b = a.centre - b.centre;
-  const double limit = a.radius + b.radius + write.reach();
-  const double d2 = squared_norm(from_b);
-  if (d2 >= limit * limit) return;
-  const double d = std::sqrt(d2);
-  write.add(0, a.centre, a.radius, d - a.radius - b.radius, direction(from_b, d));
+/// Pairs of single spheres. Several are computed side by side, which a compiler turns into vectors.
+void collide_spheres(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) {
+  constexpr std::size_t kSide = 8;
+  struct Side {
+    std::array<double, kSide> x{}, y{}, z{}, radii{}, d2{}, d{}, inverse{}, gap{}, far{};
+  } s;
+  const BoundingBall* const ball = colliders.ball.data();
+  for (std::size_t first = 0; first < pairs.size(); first += kSide) {
+    const std::size_t count = std::min(kSide, pairs.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (first + k + kPrefetch < pairs.size()) prefetch(colliders, pairs[first + k + kPrefetch].b);
+      const BoundingBall &a = ball[pairs[first + k].a], &b = ball[pairs[first + k].b];
+      const Vec3 to_b = b.centre - a.centre;
+      s.x[k] = to_b.x, s.y[k] = to_b.y, s.z[k] = to_b.z;
+      s.radii[k] = a.radius + b.radius;
+      s.far[k] = a.radius;
+    }
+    for (std::size_t k = 0; k < kSide; ++k) {
+      s.d2[k] = s.x[k] * s.x[k] + s.y[k] * s.y[k] + s.z[k] * s.z[k];
+      s.d[k] = std::sqrt(s.d2[k]);
+      s.gap[k] = s.d[k] - s.radii[k];
+      s.inverse[k] = 1.0 / s.d[k];
+      s.far[k] += 0.5 * s.gap[k];
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [a, b, reach] = pairs[first + k];
+      const double limit = s.radii[k] + reach;
+      if (s.d2[k] >= limit * limit) continue;
+      // Down when the centres are too near each other to give a direction.
+      const Vec3 normal =
+          s.d[k] > 1e-300 ? Vec3{s.x[k] * s.inverse[k], s.y[k] * s.inverse[k], s.z[k] * s.inverse[k]} : Vec3{0, 0, -1};
+      out.push_back({colliders.body[a], colliders.body[b], colliders.ordinal[a], colliders.ordinal[b], 0,
+                     ball[a].centre + s.far[k] * normal, normal, s.gap[k]});
+    }
+  }
+}
+
+/// A sphere has no orientation that matters.
+Pose pose_of(const ColliderView& colliders, ColliderIndex i) {
+  return colliders.kind[i] == ShapeKind::sphere ? Pose{colliders.ball[i].centre, {}} : colliders.pose[i];
 }
 
 /// Two unions of spheres. Those of each that come near the bounding sphere of the other are compared.
@@ -165,23 +205,19 @@ void SphereCluster::collide(const ColliderView& colliders, std::span<const Colli
                             ContactBuffer& out) const {
   using namespace sphere_cluster;
   Scratch scratch;
+  const auto both_spheres = [&](const ColliderPair& pair) {
+    return colliders.kind[pair.a] == ShapeKind::sphere && colliders.kind[pair.b] == ShapeKind::sphere;
+  };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (k + kPrefetch < pairs.size()) {
-      const ColliderIndex ahead = pairs[k + kPrefetch].b;
-      __builtin_prefetch(&colliders.ball[ahead]);
-      __builtin_prefetch(&colliders.body[ahead]);
-      __builtin_prefetch(&colliders.ordinal[ahead]);
-    }
+    // Spheres come in runs.
+    const std::size_t first = k;
+    while (k < pairs.size() && both_spheres(pairs[k])) ++k;
+    collide_spheres(colliders, pairs.subspan(first, k - first), out);
+    if (k == pairs.size()) break;
+    if (k + kPrefetch < pairs.size()) prefetch(colliders, pairs[k + kPrefetch].b);
     const ColliderPair& pair = pairs[k];
-    if (colliders.kind[pair.a] == ShapeKind::sphere && colliders.kind[pair.b] == ShapeKind::sphere) {
-      ContactWriter write{colliders, pair, false, out};
-      collide_spheres(colliders.ball[pair.a], colliders.ball[pair.b], write);
-      continue;
-    }
-    const Solid& a = set_.solids[colliders.primitive[pair.a]];
-    const Solid& b = set_.solids[colliders.primitive[pair.b]];
-    const Pose& pose_a = colliders.pose[pair.a];
-    const Pose& pose_b = colliders.pose[pair.b];
+    const Solid a = set_.solid(colliders.primitive[pair.a]), b = set_.solid(colliders.primitive[pair.b]);
+    const Pose pose_a = pose_of(colliders, pair.a), pose_b = pose_of(colliders, pair.b);
     const bool both_round = is_round(a.kind) && is_round(b.kind);
     // The plane, or else the one that is not made of spheres, comes second.
     const bool swapped = !both_round && (is_round(b.kind) || a.kind == ShapeKind::plane);

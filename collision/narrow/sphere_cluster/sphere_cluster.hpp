@@ -19,6 +19,7 @@ class SphereCluster : public NarrowPhase {
  public:
   [[nodiscard]] bool supports(ShapeKind a, ShapeKind b) const override;
   [[nodiscard]] bool supports_hollow(ShapeKind inside) const override;
+  [[nodiscard]] bool reads_sphere_poses() const override { return false; }
   void bind(const ShapeSet& shapes, std::size_t first_new_primitive) override;
   void collide(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) const override;
 

@@ -42,6 +42,17 @@ void grow_to(std::size_t count, Buffers&... buffers) {
   (fit(buffers), ...);
 }
 
+/// Brings buffers that are kept, and written whole in every step, to `count` items, which hold nothing then; where there was no
+/// room, for a sixteenth more.
+template <class... Buffers>
+void resize_kept(std::size_t count, Buffers&... buffers) {
+  const auto fit = [count](auto& buffer) {
+    if (buffer.capacity() < count) make_room(count + count / 16, buffer);
+    buffer.resize(count);
+  };
+  (fit(buffers), ...);
+}
+
 /// Has the allocator map large blocks one by one, so that a block that is freed goes back to the system and leaves no hole: in
 /// large scenes a fifth of the memory would be holes. For a program, at its start.
 void map_large_blocks();

@@ -12,8 +12,8 @@ namespace scree {
 template <class T>
 struct UninitialisedAllocator : std::allocator<T> {
   template <class U>
-  struct rebind {
-    using other = UninitialisedAllocator<U>;
+  struct rebind {                             // NOLINT(readability-identifier-naming): as std::allocator has it
+    using other = UninitialisedAllocator<U>;  // NOLINT(readability-identifier-naming)
   };
   template <class U>
   void construct(U* /*place*/) noexcept {

@@ -26,11 +26,11 @@ struct ColliderView {
   std::span<const BodyIndex> body;           ///< index into the BodyView
   std::span<const std::uint32_t> primitive;  ///< index into ShapeSet::primitives()
   std::span<const std::uint32_t> ordinal;    ///< of the primitive within its shape, as Contact::primitive_a counts
-  std::span<const Pose> pose;                ///< of the primitive's frame in the world [m]
-  std::span<const Aabb> box;                 ///< tight bounds grown by what can happen within the step [m], world
-  std::span<const char> movable;             ///< 1 for primitives of dynamic bodies
-  std::span<const ShapeKind> kind;           ///< of the primitive
-  std::span<const BoundingBall> ball;        ///< of the primitive
+  std::span<const Pose> pose;          ///< of the primitive's frame in the world [m]; of a sphere it holds nothing
+                                       ///< unless a phase asks for it, see NarrowPhase::reads_sphere_poses()
+  std::span<const char> movable;       ///< 1 for primitives of dynamic bodies
+  std::span<const ShapeKind> kind;     ///< of the primitive
+  std::span<const BoundingBall> ball;  ///< of the primitive
 
   [[nodiscard]] std::size_t size() const { return key.size(); }
 };

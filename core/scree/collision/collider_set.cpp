@@ -16,7 +16,7 @@ constexpr unsigned kOrdinalBits = 16;
 
 /// The tight box grown by turning (never beyond the bounding sphere), then swept
 /// along the motion of its centre, plus this collider's half of the slack.
-Aabb swept_box(const Aabb& tight, const ColliderMotion& m, const ColliderSpin& spin, const ReachRule& rule) {
+Aabb swept(const Aabb& tight, const ColliderMotion& m, const ColliderSpin& spin, const ReachRule& rule) {
   Aabb box = tight;
   const double turn = rule.dt * norm(spin.spin) * spin.turn_radius;
   if (turn > 0.0) {
@@ -59,181 +59,172 @@ void ColliderSet::note_new_shapes(const ShapeSet& shapes) {
     }
     if (shape.primitive_count == 1 && record.colliders == 1) {
       const Primitive& only = shapes.primitives()[shape.first_primitive];
-      record.single_sphere =
-          only.kind == ShapeKind::sphere && only.local.position == Vec3{} && only.local.orientation == Quat{};
+      record.at_origin = only.local.position == Vec3{};
+      record.single_sphere = only.kind == ShapeKind::sphere && record.at_origin && only.local.orientation == Quat{};
       record.radius = only.bounding_radius;
     }
     shapes_.push_back(record);
   }
 }
 
-void ColliderSet::make_step_room(std::uint32_t total) {
-  key_.resize(total);
-  body_.resize(total);
-  primitive_.resize(total);
-  ordinal_.resize(total);
-  pose_.resize(total);
-  box_.resize(total);
-  movable_.resize(total);
-  kind_.resize(total);
-  ball_.resize(total);
-  motion_.resize(total);
-  grown_.resize(total);
-  if (!all_spheres_) {
-    tight_.resize(total);
-    spin_.resize(total);
-  }
-  if (all_bounded_) return;
-  const std::size_t bounded = total - unbounded_.size();
-  bounded_.resize(bounded);
-  bounded_key_.resize(bounded);
-  bounded_box_.resize(bounded);
-  bounded_movable_.resize(bounded);
-  bounded_owner_.resize(bounded);
-  bounded_grown_.resize(bounded);
-}
-
 void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
   note_new_shapes(shapes);
-  first_.resize(bodies.size() + 1);
-  first_bounded_.resize(bodies.size() + 1);
+  chunks_.clear();
   unbounded_.clear();
-  all_spheres_ = true;
-  std::uint32_t total = 0;
+  one_each_ = true;
+  bool spheres = true;
+  Place total;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    first_[i] = total;
-    first_bounded_[i] = total - static_cast<std::uint32_t>(unbounded_.size());
+    if (i % kBodiesPerChunk == 0) chunks_.push_back(total);
     const ShapeRecord& record = shapes_[bodies.shape[i]];
-    all_spheres_ &= record.single_sphere != 0;
+    one_each_ &= record.at_origin;
     if (record.planes > 0) {
-      std::uint32_t at = total;
+      std::uint32_t at = total.collider;
       for (const Primitive& primitive : shapes.primitives(shapes.shapes()[bodies.shape[i]])) {
         if (!primitive.collides) continue;
         if (primitive.kind == ShapeKind::plane) unbounded_.push_back(at);
         ++at;
       }
     }
-    total += record.colliders;
+    spheres &= record.single_sphere || record.planes == record.colliders;
+    total.collider += record.colliders;
+    total.bounded += record.colliders - std::uint32_t{record.planes};
+    if (!record.single_sphere) total.solid += record.colliders;
   }
-  first_[bodies.size()] = total;
-  first_bounded_[bodies.size()] = total - static_cast<std::uint32_t>(unbounded_.size());
-  all_bounded_ = unbounded_.empty();
+  balls_alone_ = spheres && !use_.boxes;
+  in_place_ = unbounded_.empty() || balls_alone_;
   make_step_room(total);
 }
 
+void ColliderSet::make_step_room(const Place& total) {
+  const std::size_t n = total.collider;
+  resize_kept(n, key_, body_, primitive_, ordinal_, pose_, movable_, kind_, ball_);
+  if (!one_each_) resize_kept(n, own_velocity_);
+  if (total.solid > 0) resize_kept(n, solid_of_);
+  resize_kept(total.solid, solids_);
+  const std::size_t bounded = in_place_ ? n : total.bounded;
+  resize_kept(bounded, margin_);
+  if (!balls_alone_) resize_kept(bounded, box_);
+  if (!in_place_) resize_kept(bounded, bounded_, bounded_key_, bounded_movable_, bounded_owner_, bounded_ball_);
+}
+
 void ColliderSet::place_spheres(const BodyView& bodies, std::size_t first, std::size_t last,
-                                std::span<const Vec3> velocity, const ReachRule& rule) {
+                                std::span<const Vec3> velocity, const ReachRule& rule, Place& at) {
   for (std::size_t i = first; i < last; ++i) {
     const ShapeRecord shape = shapes_[bodies.shape[i]];
-    const Vec3 centre = bodies.position[i];
-    const bool movable = bodies.motion[i] == Motion::dynamic;
-    const ColliderMotion motion{centre, shape.radius, velocity[i], static_cast<BodyIndex>(i), ShapeKind::sphere,
-                                movable};
-    const Aabb box = swept_sphere(motion, rule);
-    const bool bounded = is_bounded(box);
-    const std::uint32_t at = first_[i];
-    motion_[at] = motion;
-    box_[at] = bounded ? box : Aabb{};
-    grown_[at] = bounded ? grown_ball(motion, rule) : BoundingBall{};
-    ball_[at] = {centre, shape.radius};
-    pose_[at] = {centre, bodies.orientation[i]};
-    key_[at] = bodies.id[i] << kOrdinalBits;
-    body_[at] = static_cast<BodyIndex>(i);
-    primitive_[at] = shape.first_primitive;
-    ordinal_[at] = 0;
-    kind_[at] = ShapeKind::sphere;
-    movable_[at] = movable;
-    if (!all_bounded_) place_bounded(at, first_bounded_[i]);
+    const std::uint32_t k = at.collider;
+    const ColliderMotion motion{bodies.position[i], shape.radius, velocity[i]};
+    ball_[k] = {motion.centre, motion.radius};
+    if (!one_each_) own_velocity_[k] = motion.velocity;
+    if (use_.sphere_poses) pose_[k] = {motion.centre, bodies.orientation[i]};
+    key_[k] = bodies.id[i] << kOrdinalBits;
+    body_[k] = static_cast<BodyIndex>(i);
+    primitive_[k] = shape.first_primitive;
+    ordinal_[k] = 0;
+    kind_[k] = ShapeKind::sphere;
+    movable_[k] = bodies.motion[i] == Motion::dynamic;
+    if (balls_alone_) {
+      margin_[k] = margin_of(motion, rule);
+    } else {
+      place_bounded(at, swept_sphere(motion, rule), margin_of(motion, rule));
+    }
+    ++at.collider;
+    ++at.bounded;
+  }
+}
+
+void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity,
+                        const Vec3& spin, const ReachRule& rule, Place& at) {
+  const Shape& shape = shapes.shapes()[bodies.shape[i]];
+  const Pose body_pose{bodies.position[i], bodies.orientation[i]};
+  for (std::uint32_t ordinal = 0; ordinal < shape.primitive_count; ++ordinal) {
+    const Primitive& primitive = shapes.primitives()[shape.first_primitive + ordinal];
+    if (!primitive.collides) continue;
+    const std::uint32_t k = at.collider;
+    key_[k] = (bodies.id[i] << kOrdinalBits) | ordinal;
+    body_[k] = i;
+    primitive_[k] = shape.first_primitive + ordinal;
+    ordinal_[k] = ordinal;
+    pose_[k] = body_pose * primitive.local;
+    movable_[k] = bodies.motion[i] == Motion::dynamic;
+    kind_[k] = primitive.kind;
+    const Vec3 centre = pose_[k].position;
+    const ColliderMotion motion{centre, primitive.bounding_radius, velocity + cross(spin, centre - body_pose.position)};
+    ball_[k] = {motion.centre, motion.radius};
+    if (!one_each_) own_velocity_[k] = motion.velocity;
+    const bool plane = primitive.kind == ShapeKind::plane;
+    Solid& solid = solids_[at.solid];
+    solid_of_[k] = at.solid++;
+    if (primitive.kind == ShapeKind::sphere) {
+      solid.swept = swept_sphere(motion, rule);
+    } else {
+      solid.spin = {spin, primitive.bounding_radius};
+      solid.tight = bounds(shapes, primitive, pose_[k]);
+      solid.swept = plane ? Aabb::everywhere() : swept(solid.tight, motion, solid.spin, rule);
+    }
+    if (balls_alone_) {
+      margin_[k] = 0.0;  // of a plane
+    } else if (!plane) {
+      place_bounded(at, solid.swept, margin_of(motion, rule));
+    }
+    ++at.collider;
+    if (!plane) ++at.bounded;
   }
 }
 
 /// Box and ball of a collider within the step.
-void ColliderSet::bound(std::uint32_t at, const Aabb& box, const ReachRule& rule) {
+void ColliderSet::place_bounded(const Place& at, const Aabb& box, double margin) {
   // A body that diverged. Broad phases need numbers; no later test lets it pass, and the stepper reports it.
   const bool bounded = is_bounded(box);
-  box_[at] = bounded ? box : Aabb{};
-  grown_[at] = bounded ? grown_ball(motion_[at], rule) : BoundingBall{};
-}
-
-void ColliderSet::place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity,
-                        const Vec3& spin, const ReachRule& rule) {
-  const Shape& shape = shapes.shapes()[bodies.shape[i]];
-  const Pose body_pose{bodies.position[i], bodies.orientation[i]};
-  std::uint32_t at = first_[i];
-  std::uint32_t bounded_at = first_bounded_[i];
-  for (std::uint32_t k = 0; k < shape.primitive_count; ++k) {
-    const Primitive& primitive = shapes.primitives()[shape.first_primitive + k];
-    if (!primitive.collides) continue;
-    key_[at] = (bodies.id[i] << kOrdinalBits) | k;
-    body_[at] = i;
-    primitive_[at] = shape.first_primitive + k;
-    ordinal_[at] = k;
-    pose_[at] = body_pose * primitive.local;
-    movable_[at] = bodies.motion[i] == Motion::dynamic;
-    const Vec3 centre = pose_[at].position;
-    kind_[at] = primitive.kind;
-    ball_[at] = {centre, primitive.bounding_radius};
-    motion_[at] = {centre,         primitive.bounding_radius, velocity + cross(spin, centre - body_pose.position), i,
-                   primitive.kind, movable_[at] != 0};
-    const bool plane = primitive.kind == ShapeKind::plane;
-    if (primitive.kind == ShapeKind::sphere) {
-      bound(at, swept_sphere(motion_[at], rule), rule);
-    } else {
-      spin_[at] = {spin, primitive.bounding_radius};
-      tight_[at] = bounds(shapes, primitive, pose_[at]);
-      bound(at, swept_box(tight_[at], motion_[at], spin_[at], rule), rule);
-      if (plane) box_[at] = Aabb::everywhere();
-    }
-    if (!all_bounded_ && !plane) place_bounded(at, bounded_at++);
-    ++at;
-  }
-}
-
-void ColliderSet::place_bounded(std::uint32_t at, std::uint32_t bounded_at) {
-  bounded_[bounded_at] = at;
-  bounded_key_[bounded_at] = key_[at];
-  bounded_box_[bounded_at] = box_[at];
-  bounded_movable_[bounded_at] = movable_[at];
-  bounded_owner_[bounded_at] = body_[at];
-  bounded_grown_[bounded_at] = grown_[at];
+  box_[at.bounded] = bounded ? box : Aabb{};
+  margin_[at.bounded] = bounded ? margin : 0.0;
+  if (in_place_) return;
+  bounded_[at.bounded] = at.collider;
+  bounded_key_[at.bounded] = key_[at.collider];
+  bounded_movable_[at.bounded] = movable_[at.collider];
+  bounded_owner_[at.bounded] = body_[at.collider];
+  bounded_ball_[at.bounded] = ball_[at.collider];
 }
 
 void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::span<const Vec3> velocity,
-                        std::span<const Vec3> angular_velocity, const ReachRule& rule, const Executor& executor) {
+                        std::span<const Vec3> angular_velocity, const ReachRule& rule, const ColliderUse& use,
+                        const Executor& executor) {
   SCREE_REQUIRE(velocity.size() == bodies.size() && angular_velocity.size() == bodies.size(),
                 "collision needs one velocity and one angular velocity per body");
+  use_ = use;
   count(shapes, bodies);
+  velocity_ = one_each_ ? velocity : std::span<const Vec3>{own_velocity_};
   executor.for_chunks(bodies.size(), kBodiesPerChunk, [&](std::size_t first, std::size_t last) {
+    Place at = chunks_[first / kBodiesPerChunk];
     for (std::size_t i = first; i < last;) {
       // Spheres come in runs.
       std::size_t end = i;
-      while (end < last && shapes_[bodies.shape[end]].single_sphere != 0) ++end;
-      place_spheres(bodies, i, end, velocity, rule);
+      while (end < last && shapes_[bodies.shape[end]].single_sphere) ++end;
+      place_spheres(bodies, i, end, velocity, rule, at);
       i = end;
       if (i == last) break;
-      place(shapes, bodies, static_cast<BodyIndex>(i), velocity[i], angular_velocity[i], rule);
+      place(shapes, bodies, static_cast<BodyIndex>(i), velocity[i], angular_velocity[i], rule, at);
       ++i;
     }
   });
 }
 
-ColliderView ColliderSet::view() const {
-  return {key_, body_, primitive_, ordinal_, pose_, box_, movable_, kind_, ball_};
-}
+ColliderView ColliderSet::view() const { return {key_, body_, primitive_, ordinal_, pose_, movable_, kind_, ball_}; }
 
 void ColliderSet::release_bounded() {
-  release(bounded_key_, bounded_box_, bounded_movable_, bounded_owner_, bounded_grown_, grown_);
+  release(box_, margin_, bounded_key_, bounded_movable_, bounded_owner_, bounded_ball_);
 }
 
 void ColliderSet::release_step() {
   release_bounded();
-  release(first_, first_bounded_, key_, body_, primitive_, ordinal_, pose_, box_, tight_, movable_, kind_, ball_,
-          motion_, spin_, unbounded_, bounded_);
+  velocity_ = {};
+  release(chunks_, key_, body_, primitive_, ordinal_, pose_, movable_, kind_, ball_, own_velocity_, solid_of_, solids_,
+          unbounded_, bounded_);
 }
 
 BoxView ColliderSet::bounded() const {
-  if (all_bounded_) return {key_, box_, movable_, body_, grown_};
-  return {bounded_key_, bounded_box_, bounded_movable_, bounded_owner_, bounded_grown_};
+  if (in_place_) return {key_, box_, movable_, body_, ball_, margin_};
+  return {bounded_key_, box_, bounded_movable_, bounded_owner_, bounded_ball_, margin_};
 }
 
 }  // namespace scree

@@ -14,14 +14,11 @@ namespace scree {
 
 class Executor;
 
-/// What decides whether two colliders can meet: one cache line each, as every candidate pair reads two of them.
-struct alignas(64) ColliderMotion {
+/// What decides whether two colliders can meet.
+struct ColliderMotion {
   Vec3 centre;          ///< of the bounding sphere [m], world
   double radius = 0.0;  ///< of the bounding sphere [m]; infinite for a plane
   Vec3 velocity;        ///< of the centre [m/s], world
-  BodyIndex body = 0;
-  ShapeKind kind = ShapeKind::sphere;
-  bool movable = false;
 };
 
 /// How a collider turns. A sphere's own spin does not move its surface and is left out.
@@ -54,10 +51,14 @@ struct ReachRule {
           {m.centre.x + std::max(0.0, way.x) + grown, m.centre.y + std::max(0.0, way.y) + grown,
            m.centre.z + std::max(0.0, way.z) + grown}};
 }
-/// The bounding ball grown by all its motion, in whatever direction, and by its half of the slack [m]: two colliders whose
-/// grown balls are apart do not meet within the step. For spheres, reach_of_spheres() says no less.
+/// What all its motion, in whatever direction, and its half of the slack add to a bounding ball [m].
+[[nodiscard]] inline double margin_of(const ColliderMotion& m, const ReachRule& rule) {
+  return rule.dt * norm(m.velocity) + 0.5 * rule.slack * m.radius;
+}
+/// The bounding ball grown by that: two colliders whose grown balls are apart do not meet within the step. For spheres,
+/// reach_of_spheres() says no less.
 [[nodiscard]] inline BoundingBall grown_ball(const ColliderMotion& m, const ReachRule& rule) {
-  return {m.centre, m.radius + rule.dt * norm(m.velocity) + 0.5 * rule.slack * m.radius};
+  return {m.centre, m.radius + margin_of(m, rule)};
 }
 /// True when two balls share a point.
 [[nodiscard]] inline bool balls_meet(const BoundingBall& a, const BoundingBall& b) {
@@ -65,30 +66,49 @@ struct ReachRule {
   return squared_norm(b.centre - a.centre) <= radii * radii;
 }
 
+/// What the phases of a pipeline read, so that the rest need not be written.
+struct ColliderUse {
+  bool boxes = true;         ///< false: the broad phase takes balls alone
+  bool sphere_poses = true;  ///< some narrow phase reads the poses of spheres
+};
+
 /// The colliders of one step. All buffers are kept between steps.
 class ColliderSet {
  public:
-  /// Places all colliding primitives. `velocity` [m/s] and `angular_velocity`
-  /// [rad/s], world, one per body, are those expected over the step.
+  /// Places all colliding primitives. `velocity` [m/s] and `angular_velocity` [rad/s], world, one per body, are those
+  /// expected over the step; they outlive what is read of this set.
   void build(const ShapeSet& shapes, const BodyView& bodies, std::span<const Vec3> velocity,
-             std::span<const Vec3> angular_velocity, const ReachRule& rule, const Executor& executor);
+             std::span<const Vec3> angular_velocity, const ReachRule& rule, const ColliderUse& use,
+             const Executor& executor);
 
   [[nodiscard]] ColliderView view() const;
   [[nodiscard]] std::size_t size() const { return key_.size(); }
-  [[nodiscard]] std::span<const ColliderMotion> motion() const { return motion_; }
+  /// True when collider i is the only one of body i, for all bodies.
+  [[nodiscard]] bool one_each() const { return one_each_; }
+  /// True when all but planes are spheres, each a body of its own, and bounded() has no boxes.
+  [[nodiscard]] bool balls_alone() const { return balls_alone_; }
+  [[nodiscard]] ColliderMotion motion(ColliderIndex i) const {
+    return {ball_[i].centre, ball_[i].radius, velocity_[i]};
+  }
+  [[nodiscard]] std::span<const Vec3> velocity() const { return velocity_; }
   [[nodiscard]] ColliderSpin spin(ColliderIndex i) const {
-    return kind_[i] == ShapeKind::sphere ? ColliderSpin{} : spin_[i];
+    return kind_[i] == ShapeKind::sphere ? ColliderSpin{} : solids_[solid_of_[i]].spin;
   }
   /// The box of a collider without the step's motion [m], world.
   [[nodiscard]] Aabb tight_box(ColliderIndex i) const {
-    if (kind_[i] != ShapeKind::sphere) return tight_[i];
+    if (kind_[i] != ShapeKind::sphere) return solids_[solid_of_[i]].tight;
     return expanded(Aabb{ball_[i].centre, ball_[i].centre}, ball_[i].radius);
   }
+  /// The tight box grown by what can happen within the step [m], world.
+  [[nodiscard]] Aabb swept_box(ColliderIndex i, const ReachRule& rule) const {
+    return kind_[i] == ShapeKind::sphere ? swept_sphere(motion(i), rule) : solids_[solid_of_[i]].swept;
+  }
 
-  /// The bounded colliders, for the broad phase. Their indices are translated
-  /// by bounded_index().
+  /// The bounded colliders, for the broad phase. Their indices are translated by bounded_index(). Where balls are all it
+  /// takes, planes are among them, as balls without bounds.
   [[nodiscard]] BoxView bounded() const;
-  [[nodiscard]] ColliderIndex bounded_index(ColliderIndex i) const { return all_bounded_ ? i : bounded_[i]; }
+  [[nodiscard]] bool is_translated() const { return !in_place_; }
+  [[nodiscard]] ColliderIndex bounded_index(ColliderIndex i) const { return bounded_[i]; }
   /// Frees what only bounded() returns.
   void release_bounded();
   /// Frees all that belongs to the step.
@@ -103,46 +123,57 @@ class ColliderSet {
     std::uint32_t first_primitive = 0;
     std::uint16_t colliders = 0;
     std::uint8_t planes = 0;
-    std::uint8_t single_sphere = 0;  // one primitive, a sphere at the body's origin
+    bool single_sphere : 1 = false;  // one primitive, a sphere at the body's origin
+    bool at_origin : 1 = false;      // one collider, at the body's origin
   };
   static_assert(sizeof(ShapeRecord) == 16);
+  /// What is known of a collider that is no sphere.
+  struct Solid {
+    Aabb tight;  // [m]
+    Aabb swept;  // [m]
+    ColliderSpin spin;
+  };
+  /// Where something begins among the colliders, the bounded ones and the solids.
+  struct Place {
+    std::uint32_t collider = 0, bounded = 0, solid = 0;
+  };
 
   void note_new_shapes(const ShapeSet& shapes);
   void count(const ShapeSet& shapes, const BodyView& bodies);
-  void make_step_room(std::uint32_t total);
+  void make_step_room(const Place& total);
   void place_spheres(const BodyView& bodies, std::size_t first, std::size_t last, std::span<const Vec3> velocity,
-                     const ReachRule& rule);
+                     const ReachRule& rule, Place& at);
   void place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity, const Vec3& spin,
-             const ReachRule& rule);
-  void bound(std::uint32_t at, const Aabb& box, const ReachRule& rule);
-  void place_bounded(std::uint32_t at, std::uint32_t bounded_at);
+             const ReachRule& rule, Place& at);
+  void place_bounded(const Place& at, const Aabb& box, double margin);
 
-  std::vector<ShapeRecord> shapes_;                   // of all shapes so far
-  bool all_spheres_ = true;                           // single ones, all bodies of the step
-  UninitialisedVector<std::uint32_t> first_;          // collider of each body, one more at the end
-  UninitialisedVector<std::uint32_t> first_bounded_;  // the same among the bounded ones
+  ColliderUse use_;
+  std::vector<ShapeRecord> shapes_;  // of all shapes so far
+  std::vector<Place> chunks_;        // where the bodies of each chunk begin
+  bool one_each_ = true, balls_alone_ = false;
   UninitialisedVector<std::uint64_t> key_;
   UninitialisedVector<BodyIndex> body_;
   UninitialisedVector<std::uint32_t> primitive_;
   UninitialisedVector<std::uint32_t> ordinal_;
   UninitialisedVector<Pose> pose_;
-  UninitialisedVector<Aabb> box_;
-  UninitialisedVector<Aabb> tight_;  // of what is no sphere; empty when all are
   UninitialisedVector<char> movable_;
   UninitialisedVector<ShapeKind> kind_;
   UninitialisedVector<BoundingBall> ball_;
-  UninitialisedVector<ColliderMotion> motion_;
-  UninitialisedVector<ColliderSpin> spin_;  // as tight_
-  UninitialisedVector<BoundingBall> grown_;
+  std::span<const Vec3> velocity_;               // of the bodies, or what follows
+  UninitialisedVector<Vec3> own_velocity_;       // where a body's is not its colliders'
+  UninitialisedVector<std::uint32_t> solid_of_;  // empty where all are spheres
+  UninitialisedVector<Solid> solids_;
 
-  bool all_bounded_ = true;
+  // Of the bounded ones. What is the same as above is there alone, unless planes stand between.
+  bool in_place_ = true;
   std::vector<ColliderIndex> unbounded_;
+  UninitialisedVector<Aabb> box_;
+  UninitialisedVector<double> margin_;
   UninitialisedVector<ColliderIndex> bounded_;
   UninitialisedVector<std::uint64_t> bounded_key_;
-  UninitialisedVector<Aabb> bounded_box_;
   UninitialisedVector<char> bounded_movable_;
   UninitialisedVector<std::uint32_t> bounded_owner_;
-  UninitialisedVector<BoundingBall> bounded_grown_;
+  UninitialisedVector<BoundingBall> bounded_ball_;
 };
 
 }  // namespace scree

@@ -1,6 +1,7 @@
 #include "scree/collision/collision_pipeline.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 
 #include "scree/base/error.hpp"
@@ -11,7 +12,9 @@ namespace scree {
 namespace {
 
 constexpr std::size_t kCandidatesPerChunk = 8192;
-constexpr std::size_t kPairsPerChunk = 1024;
+constexpr std::size_t kCollidersPerChunk = 512;
+/// Below, all buffers but the contacts take ten megabytes, and are kept.
+constexpr std::size_t kManyBodies = std::size_t{1} << 16;
 
 std::size_t index(ShapeKind kind) { return static_cast<std::size_t>(kind); }
 
@@ -48,6 +51,17 @@ bool spheres_meet(const ColliderMotion& a, const ColliderMotion& b, double reach
   return squared_norm(b.centre - a.centre) <= radii * radii;
 }
 
+/// Of spheres that overlap by more than rounding, the boxes do.
+constexpr double kTouching = 1.0 - 1e-9;
+
+/// True when two spheres can meet within the step.
+bool swept_spheres_meet(const ColliderMotion& a, const ColliderMotion& b, double reach, const ReachRule& rule) {
+  const double touching = kTouching * (a.radius + b.radius);
+  if (squared_norm(b.centre - a.centre) <= touching * touching) return true;
+  // Boxes of spheres are cheaper to compute than to read.
+  return spheres_meet(a, b, reach) && overlap(swept_sphere(a, rule), swept_sphere(b, rule));
+}
+
 /// Which bodies have a kind of primitive: none, one or several.
 struct Holders {
   std::size_t first = 0;
@@ -74,6 +88,8 @@ CollisionPipeline::CollisionPipeline(const ShapeSet& shapes, BroadPhase& broad, 
       const auto first =
           std::find_if(chain_.begin(), chain_.end(), [&](const NarrowPhase* phase) { return supports(*phase, a, b); });
       phase_[a][b] = first == chain_.end() ? -1 : static_cast<int>(first - chain_.begin());
+      const bool sphere = a == index(ShapeKind::sphere) || b == index(ShapeKind::sphere);
+      if (sphere && first != chain_.end()) reads_sphere_poses_ |= (*first)->reads_sphere_poses();
     }
   }
 }
@@ -115,97 +131,161 @@ void CollisionPipeline::check_support(const BodyView& bodies) const {
   }
 }
 
-void CollisionPipeline::keep_meeting(std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const {
-  const auto motion = colliders_.motion();
-  const auto box = colliders_.view().box;
-  const bool filtered = filter_.is_active();
-  for (std::size_t k = first; k < last; ++k) {
-    if (k + kPrefetch < last) {
-      __builtin_prefetch(&motion[colliders_.bounded_index(candidates_[k + kPrefetch].a)]);
-      __builtin_prefetch(&motion[colliders_.bounded_index(candidates_[k + kPrefetch].b)]);
-    }
-    const ColliderIndex one = colliders_.bounded_index(candidates_[k].a);
-    const ColliderIndex two = colliders_.bounded_index(candidates_[k].b);
-    const ColliderIndex a = std::min(one, two);
-    const ColliderIndex b = std::max(one, two);
-    const ColliderMotion& ma = motion[a];
-    const ColliderMotion& mb = motion[b];
-    if (ma.body == mb.body || (!ma.movable && !mb.movable)) continue;
-    if (filtered && !filter_.allows(ma.body, mb.body)) continue;
-    // Boxes of spheres are cheaper to compute than to read.
-    if (ma.kind == ShapeKind::sphere && mb.kind == ShapeKind::sphere) {
-      const double reach = reach_of_spheres(ma, mb, rule_);
-      // Of spheres that overlap, by more than rounding, the boxes do.
-      const double touching = (1.0 - 1e-9) * (ma.radius + mb.radius);
-      if (squared_norm(mb.centre - ma.centre) <= touching * touching) {
-        out.push_back({a, b, reach});
-        continue;
+ColliderPair* CollisionPipeline::keep_spheres(std::span<const CandidatePair> batch, ColliderPair* out) const {
+  const BoundingBall* const ball = colliders_.view().ball.data();
+  const char* const movable = colliders_.view().movable.data();
+  const Vec3* const velocity = colliders_.velocity().data();
+  // Several pairs side by side, which a compiler turns into vectors.
+  constexpr std::size_t kSide = 8;
+  std::array<double, kSide> distance2{}, radii{}, least{}, speed2{}, reach{};
+  for (std::size_t first = 0; first < batch.size(); first += kSide) {
+    const std::size_t count = std::min(kSide, batch.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (first + k + kPrefetch < batch.size()) {
+        __builtin_prefetch(&ball[batch[first + k + kPrefetch].b]);
+        __builtin_prefetch(&velocity[batch[first + k + kPrefetch].b]);
       }
-      if (!spheres_meet(ma, mb, reach)) continue;
-      if (overlap(swept_sphere(ma, rule_), swept_sphere(mb, rule_))) out.push_back({a, b, reach});
-    } else {
-      const double reach = reach_of(ma, colliders_.spin(a), mb, colliders_.spin(b), rule_);
-      if (!spheres_meet(ma, mb, reach) || !balls_meet(grown_ball(ma, rule_), grown_ball(mb, rule_))) continue;
-      if (!overlap(box[a], box[b])) continue;
-      if (overlap(expanded(colliders_.tight_box(a), reach), colliders_.tight_box(b))) out.push_back({a, b, reach});
+      const auto [a, b] = batch[first + k];
+      distance2[k] = squared_norm(ball[b].centre - ball[a].centre);
+      radii[k] = ball[a].radius + ball[b].radius;
+      least[k] = std::min(ball[a].radius, ball[b].radius);
+      speed2[k] = squared_norm(velocity[a] - velocity[b]);
+    }
+    // As reach_of_spheres() and swept_spheres_meet() have it.
+    for (std::size_t k = 0; k < kSide; ++k) reach[k] = rule_.dt * std::sqrt(speed2[k]) + rule_.slack * least[k];
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [a, b] = batch[first + k];
+      if (movable[a] == 0 && movable[b] == 0) continue;
+      const double touching = kTouching * radii[k];
+      if (distance2[k] <= touching * touching ||
+          swept_spheres_meet(colliders_.motion(a), colliders_.motion(b), reach[k], rule_)) {
+        *out++ = {a, b, reach[k]};
+      }
     }
   }
+  return out;
+}
+
+bool CollisionPipeline::meet(const CandidatePair& pair, double& reach) const {
+  const auto [a, b] = pair;
+  const ColliderView view = colliders_.view();
+  if (view.body[a] == view.body[b] || (view.movable[a] == 0 && view.movable[b] == 0)) return false;
+  if (filter_.is_active() && !filter_.allows(view.body[a], view.body[b])) return false;
+  const ColliderMotion one = colliders_.motion(a), two = colliders_.motion(b);
+  if (view.kind[a] == ShapeKind::sphere && view.kind[b] == ShapeKind::sphere) {
+    reach = reach_of_spheres(one, two, rule_);
+    return swept_spheres_meet(one, two, reach, rule_);
+  }
+  reach = reach_of(one, colliders_.spin(a), two, colliders_.spin(b), rule_);
+  if (view.kind[a] == ShapeKind::plane || view.kind[b] == ShapeKind::plane) return true;  // see pair_unbounded()
+  return spheres_meet(one, two, reach) && balls_meet(grown_ball(one, rule_), grown_ball(two, rule_)) &&
+         overlap(colliders_.swept_box(a, rule_), colliders_.swept_box(b, rule_)) &&
+         overlap(expanded(colliders_.tight_box(a), reach), colliders_.tight_box(b));
+}
+
+ColliderPair* CollisionPipeline::keep_meeting(std::span<const CandidatePair> batch, ColliderPair* out) const {
+  const auto view = colliders_.view();
+  const auto velocity = colliders_.velocity();
+  for (std::size_t k = 0; k < batch.size(); ++k) {
+    if (k + kPrefetch < batch.size()) {
+      __builtin_prefetch(&view.ball[batch[k + kPrefetch].b]);
+      __builtin_prefetch(&velocity[batch[k + kPrefetch].b]);
+    }
+    double reach = 0.0;
+    if (meet(batch[k], reach)) *out++ = {batch[k].a, batch[k].b, reach};
+  }
+  return out;
 }
 
 void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::size_t first, std::size_t last,
-                                       std::vector<ColliderPair>& out) const {
+                                       std::vector<CandidatePair>& out) const {
   const ColliderView view = colliders_.view();
-  const auto motion = colliders_.motion();
   const Pose& pose = view.pose[plane];
   const Vec3 normal = rotate(pose.orientation, {0, 0, 1});
-  const bool filtered = filter_.is_active();
+  const ColliderMotion own = colliders_.motion(plane);
+  const bool still = own.velocity == Vec3{} && colliders_.spin(plane).spin == Vec3{};
   for (auto other = static_cast<ColliderIndex>(first); other < last; ++other) {
-    if (!motion[other].movable && !motion[plane].movable) continue;
-    if (motion[other].kind == ShapeKind::plane || motion[other].body == motion[plane].body) continue;
-    if (filtered && !filter_.allows(motion[other].body, motion[plane].body)) continue;
-    const double reach = reach_of(motion[other], colliders_.spin(other), motion[plane], colliders_.spin(plane), rule_);
-    const double height = dot(normal, motion[other].centre - pose.position);
+    const ColliderMotion motion = colliders_.motion(other);
+    const double height = dot(normal, motion.centre - pose.position);
+    if (still) {
+      // Most are far away: told without a root, by less than rounding.
+      const double beyond = (1.0 - 1e-9) * height - (1.0 + rule_.slack) * motion.radius;
+      if (beyond > 0.0 && beyond * beyond > rule_.dt * rule_.dt * squared_norm(motion.velocity)) continue;
+    }
+    if (view.movable[other] == 0 && view.movable[plane] == 0) continue;
+    if (view.kind[other] == ShapeKind::plane || view.body[other] == view.body[plane]) continue;
+    const double reach = reach_of(motion, colliders_.spin(other), own, colliders_.spin(plane), rule_);
     // Written so that a collider with NaN meets nothing.
-    if (!(height - motion[other].radius <= reach)) continue;
-    out.push_back({std::min(plane, other), std::max(plane, other), reach});
+    if (!(height - motion.radius <= reach)) continue;
+    out.push_back({plane, other});
   }
 }
 
-void CollisionPipeline::find_pairs(std::size_t body_count) {
+void CollisionPipeline::add_unbounded() {
+  const auto planes = colliders_.unbounded();
+  if (planes.empty()) return;
+  const std::size_t chunks = Executor::chunk_count(colliders_.size(), kCandidatesPerChunk);
+  if (plane_pairs_.size() < chunks) plane_pairs_.resize(chunks);
+  executor_.for_chunks(colliders_.size(), kCandidatesPerChunk, [&](std::size_t first, std::size_t last) {
+    std::vector<CandidatePair>& out = plane_pairs_[first / kCandidatesPerChunk];
+    out.clear();
+    for (const ColliderIndex plane : planes) pair_unbounded(plane, first, last, out);
+  });
+  for (std::size_t k = 0; k < chunks; ++k) {
+    candidates_.insert(candidates_.end(), plane_pairs_[k].begin(), plane_pairs_[k].end());
+  }
+}
+
+std::span<ColliderPair> CollisionPipeline::keep_chunk(std::size_t first, std::size_t last, std::size_t room) {
+  const auto body = colliders_.view().body;
+  ColliderPair* const begin = pairs_.data() + room;
+  ColliderPair* end = begin;
+  const auto keep = [&](std::span<const CandidatePair> batch) {
+    end = plain_ ? keep_spheres(batch, end) : keep_meeting(batch, end);
+  };
+  sorter_.in_order(first, last, std::ref(keep));
+  end = std::unique(begin, end, [](const ColliderPair& l, const ColliderPair& r) { return l.a == r.a && l.b == r.b; });
+  if (colliders_.one_each()) return {begin, end};
+  // Those of several colliders of a body are sorted by the other body.
+  for (ColliderPair *own = begin, *next = begin; own < end; own = next) {
+    while (next < end && body[next->a] == body[own->a]) ++next;
+    if (own->a == next[-1].a) continue;
+    std::sort(own, next, [&](const ColliderPair& l, const ColliderPair& r) {
+      if (body[l.b] != body[r.b]) return body[l.b] < body[r.b];
+      return l.a != r.a ? l.a < r.a : l.b < r.b;
+    });
+  }
+  return {begin, end};
+}
+
+void CollisionPipeline::find_candidates() {
   candidates_.clear();
   broad_.find_pairs(colliders_.bounded(), executor_, candidates_);
   counts_.candidates = candidates_.size();
   if (large_) {
     broad_.release_workspace();
-    colliders_.release_bounded();
+    if (!colliders_.balls_alone()) colliders_.release_bounded();
   }
-
-  const std::size_t chunks = Executor::chunk_count(candidates_.size(), kCandidatesPerChunk);
-  const auto planes = colliders_.unbounded();
-  const std::size_t plane_chunks = Executor::chunk_count(colliders_.size(), kCandidatesPerChunk);
-  const std::size_t parts = chunks + planes.size() * plane_chunks;
-  if (chunk_pairs_.size() < parts) chunk_pairs_.resize(parts);
-  executor_.for_chunks(parts, 1, [&](std::size_t part, std::size_t) {
-    std::vector<ColliderPair>& out = chunk_pairs_[part];
-    out.clear();
-    if (part >= chunks) {
-      const std::size_t begin = (part - chunks) % plane_chunks * kCandidatesPerChunk;
-      const std::size_t end = std::min(colliders_.size(), begin + kCandidatesPerChunk);
-      return pair_unbounded(planes[(part - chunks) / plane_chunks], begin, end, out);
+  if (colliders_.is_translated()) {
+    for (CandidatePair& pair : candidates_) {
+      pair = {colliders_.bounded_index(pair.a), colliders_.bounded_index(pair.b)};
     }
-    const std::size_t first = part * kCandidatesPerChunk;
-    const std::size_t last = std::min(candidates_.size(), first + kCandidatesPerChunk);
-    if (large_) out.reserve(last - first);
-    keep_meeting(first, last, out);
-  });
-  if (large_) release(candidates_);
-  pairs_ = sorter_.sort(std::span{chunk_pairs_}.first(parts), colliders_.view().body, body_count, executor_);
-  if (large_) release(chunk_pairs_);
-  counts_.pairs = pairs_.size();
+  }
+  add_unbounded();
+  sorter_.sort(candidates_, colliders_.size());
+  if (large_) release(candidates_, plane_pairs_);
 }
 
 void CollisionPipeline::collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const {
+  if (pairs.empty()) return;
   const ColliderView view = colliders_.view();
+  constexpr auto kSphere = static_cast<std::size_t>(ShapeKind::sphere),
+                 kPlane = static_cast<std::size_t>(ShapeKind::plane);
+  const int of_spheres = phase_[kSphere][kSphere];
+  if (colliders_.balls_alone() && of_spheres >= 0 && of_spheres == phase_[kSphere][kPlane] &&
+      of_spheres == phase_[kPlane][kSphere]) {
+    return chain_[static_cast<std::size_t>(of_spheres)]->collide(view, pairs, out);
+  }
   const auto kind_of = [&](ColliderIndex i) {
     return view.kind[i] == ShapeKind::cylinder ? index(shapes_.primitives()[view.primitive[i]]) : index(view.kind[i]);
   };
@@ -221,31 +301,65 @@ void CollisionPipeline::collide(std::span<const ColliderPair> pairs, ContactBuff
   }
 }
 
-std::span<const Contact> CollisionPipeline::find_contacts() {
+void CollisionPipeline::cut_into_chunks() {
+  const auto body = colliders_.view().body;
+  chunk_begin_.clear();
+  // A body's colliders stay together.
+  for (std::size_t i = 0; i < body.size(); i += kCollidersPerChunk) {
+    while (i > 0 && i < body.size() && body[i] == body[i - 1]) ++i;
+    chunk_begin_.push_back(i);
+  }
+  chunk_begin_.push_back(body.size());
+}
+
+std::span<const Contact> CollisionPipeline::find_contacts(std::size_t expected) {
+  // A plane that does not turn comes as near as its velocity says, as a sphere does.
+  plain_ =
+      colliders_.balls_alone() && !filter_.is_active() &&
+      std::ranges::all_of(colliders_.unbounded(), [&](auto plane) { return colliders_.spin(plane).spin == Vec3{}; });
+  cut_into_chunks();
+  const std::size_t chunks = chunk_begin_.size() - 1;
   std::span<const Contact> found;
   if (executor_.threads() == 1) {
+    // The pairs of a chunk go where those before were, so that they and their spheres stay in the cache.
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < chunks; ++k) {
+      most = std::max(most, sorter_.begin(chunk_begin_[k + 1]) - sorter_.begin(chunk_begin_[k]));
+    }
+    resize_kept(most, pairs_);
+    // Contacts live through the whole step: their memory is kept.
     contacts_.clear();
-    // Most pairs have one contact.
-    contacts_.reserve(pairs_.size());
-    collide(pairs_, contacts_);
+    const std::size_t room = colliders_.balls_alone() ? sorter_.size() : std::min(sorter_.size(), expected);
+    if (contacts_.capacity() < room) make_room(room + room / 16, contacts_);
+    for (std::size_t k = 0; k < chunks; ++k) {
+      const std::span<const ColliderPair> pairs = keep_chunk(chunk_begin_[k], chunk_begin_[k + 1], 0);
+      counts_.pairs += pairs.size();
+      collide(pairs, contacts_);
+    }
     found = contacts_;
   } else {
-    const std::size_t chunks = Executor::chunk_count(pairs_.size(), kPairsPerChunk);
+    resize_kept(sorter_.size(), pairs_);
     if (chunk_contacts_.size() < chunks) chunk_contacts_.resize(chunks);
+    chunk_pairs_.resize(chunks);
     executor_.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
+      const std::size_t first = chunk_begin_[chunk];
+      const std::span<const ColliderPair> pairs = keep_chunk(first, chunk_begin_[chunk + 1], sorter_.begin(first));
+      chunk_pairs_[chunk] = pairs.size();
       chunk_contacts_[chunk].clear();
-      const std::size_t first = chunk * kPairsPerChunk;
-      const std::size_t pairs = std::min(kPairsPerChunk, pairs_.size() - first);
-      chunk_contacts_[chunk].reserve(pairs);
-      collide(pairs_.subspan(first, pairs), chunk_contacts_[chunk]);
+      chunk_contacts_[chunk].reserve(pairs.size());
+      collide(pairs, chunk_contacts_[chunk]);
     });
+    for (std::size_t k = 0; k < chunks; ++k) counts_.pairs += chunk_pairs_[k];
     found = join_contacts(chunks);
   }
   if (large_) {
-    pairs_ = {};
-    sorter_.release_buffers();
-    colliders_.release_step();
     release(chunk_contacts_);
+    // What spheres need is small beside the rest of a step, and kept.
+    if (!colliders_.balls_alone()) {
+      sorter_.release_buffers();
+      release(pairs_);
+      colliders_.release_step();
+    }
   }
   counts_.contacts = found.size();
   return found;
@@ -255,7 +369,7 @@ std::span<const Contact> CollisionPipeline::join_contacts(std::size_t chunks) {
   chunk_offset_.resize(chunks + 1);
   chunk_offset_[0] = 0;
   for (std::size_t k = 0; k < chunks; ++k) chunk_offset_[k + 1] = chunk_offset_[k] + chunk_contacts_[k].size();
-  joined_contacts_.resize(chunk_offset_[chunks]);
+  resize_kept(chunk_offset_[chunks], joined_contacts_);
   executor_.for_chunks(chunks, 8, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       std::copy(chunk_contacts_[k].begin(), chunk_contacts_[k].end(),
@@ -268,14 +382,16 @@ std::span<const Contact> CollisionPipeline::join_contacts(std::size_t chunks) {
 std::span<const Contact> CollisionPipeline::find(const BodyView& bodies, std::span<const Vec3> velocity,
                                                  std::span<const Vec3> angular_velocity, double dt) {
   bind_new_shapes();
-  large_ = bodies.size() >= kManyRecords;
-  if (large_) release(contacts_, joined_contacts_);
+  large_ = bodies.size() >= kManyBodies;
   rule_ = {dt, settings_.reach_slack};
   if (filter_.is_active()) filter_.look_up(bodies);
-  colliders_.build(shapes_, bodies, velocity, angular_velocity, rule_, executor_);
+  const ColliderUse use{.boxes = !broad_.takes_balls_alone(), .sphere_poses = reads_sphere_poses_};
+  colliders_.build(shapes_, bodies, velocity, angular_velocity, rule_, use, executor_);
+  // Room for so many contacts, where candidates tell nothing.
+  const std::size_t expected = counts_.contacts + counts_.contacts / 8;
   counts_ = {colliders_.size(), 0, 0, 0};
-  find_pairs(bodies.size());
-  return find_contacts();
+  find_candidates();
+  return find_contacts(expected);
 }
 
 }  // namespace scree

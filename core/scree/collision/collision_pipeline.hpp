@@ -62,11 +62,19 @@ class CollisionPipeline {
 
  private:
   void bind_new_shapes();
-  void keep_meeting(std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const;
-  void pair_unbounded(ColliderIndex plane, std::size_t first, std::size_t last, std::vector<ColliderPair>& out) const;
-  void find_pairs(std::size_t body_count);
+  /// Appends those of sorted candidates that can meet within the step to `out`, which has room for all, and returns its end.
+  ColliderPair* keep_meeting(std::span<const CandidatePair> batch, ColliderPair* out) const;
+  /// The same where plain_.
+  ColliderPair* keep_spheres(std::span<const CandidatePair> batch, ColliderPair* out) const;
+  bool meet(const CandidatePair& pair, double& reach) const;
+  void pair_unbounded(ColliderIndex plane, std::size_t first, std::size_t last, std::vector<CandidatePair>& out) const;
+  void add_unbounded();
+  void find_candidates();
+  void cut_into_chunks();
+  /// The pairs of the colliders first..last-1, sorted; they lie in pairs_, from `room` on.
+  std::span<ColliderPair> keep_chunk(std::size_t first, std::size_t last, std::size_t room);
   void collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const;
-  std::span<const Contact> find_contacts();
+  std::span<const Contact> find_contacts(std::size_t expected);
   std::span<const Contact> join_contacts(std::size_t chunks);
 
   const ShapeSet& shapes_;
@@ -77,19 +85,23 @@ class CollisionPipeline {
   /// Phase of the chain for two kinds, or -1; the last kind is that of hollow cylinders.
   std::array<std::array<int, kShapeKindCount + 1>, kShapeKindCount + 1> phase_{};
   std::size_t bound_primitives_ = 0;
+  bool reads_sphere_poses_ = false;
 
   CollisionFilter filter_;
   ReachRule rule_;
   ColliderSet colliders_;
   std::vector<CandidatePair> candidates_;
-  std::vector<std::vector<ColliderPair>> chunk_pairs_;
+  std::vector<std::vector<CandidatePair>> plane_pairs_;  // by chunk of colliders
   PairSorter sorter_;
-  std::span<const ColliderPair> pairs_;
+  std::vector<std::size_t> chunk_begin_;     // colliders, and one more
+  UninitialisedVector<ColliderPair> pairs_;  // of a chunk; with several threads of all, with gaps between the chunks
+  std::vector<std::size_t> chunk_pairs_;     // how many
   std::vector<ContactBuffer> chunk_contacts_;
   std::vector<std::size_t> chunk_offset_;
   ContactBuffer contacts_;                        // of one thread
   UninitialisedVector<Contact> joined_contacts_;  // of several
   CollisionCounts counts_;
+  bool plain_ = false;  ///< all are spheres, or planes that do not turn, and may meet all
   bool large_ = false;  ///< buffers are freed as soon as nobody reads them any more
 };
 

@@ -1,93 +1,101 @@
 #include "scree/collision/pair_sorter.hpp"
 
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
 #include <algorithm>
-#include <atomic>
+#include <array>
 
 #include "scree/base/release.hpp"
-#include "scree/parallel/executor.hpp"
 
 namespace scree {
 namespace {
 
-constexpr std::size_t kBodiesPerChunk = 4096;
+/// Pairs that in_order() hands over at a time.
+constexpr std::size_t kBatch = 512;
+/// Up to here pairs are sorted without a branch.
+constexpr std::size_t kFew = 4;
 /// Up to here a sort by insertion is faster than std::sort.
-constexpr std::ptrdiff_t kFewPairs = 24;
+constexpr std::ptrdiff_t kSome = 24;
 
-template <class Less>
-void sort_few(ColliderPair* first, ColliderPair* last, const Less& less) {
-  if (last - first > kFewPairs) {
-    std::sort(first, last, less);
-    return;
-  }
-  for (ColliderPair* i = first + 1; i < last; ++i) {
-    const ColliderPair moving = *i;
-    ColliderPair* hole = i;
-    for (; hole > first && less(moving, hole[-1]); --hole) *hole = hole[-1];
+void sort_some(ColliderIndex* first, ColliderIndex* last) {
+  if (last - first > kSome) return std::sort(first, last);
+  for (ColliderIndex* i = first + 1; i < last; ++i) {
+    const ColliderIndex moving = *i;
+    ColliderIndex* hole = i;
+    for (; hole > first && moving < hole[-1]; --hole) *hole = hole[-1];
     *hole = moving;
   }
 }
 
-bool same(const ColliderPair& l, const ColliderPair& r) { return l.a == r.a && l.b == r.b; }
-
-/// True when every body has one collider, at its own index.
-bool one_each(std::span<const BodyIndex> body, std::size_t body_count) {
-  if (body.size() != body_count) return false;
-  BodyIndex differ = 0;
-  for (std::size_t i = 0; i < body.size(); ++i) differ |= body[i] ^ static_cast<BodyIndex>(i);
-  return differ == 0;
+/// Writes the pairs of a with up to kFew others, sorted, to `out`, which has room for kFew.
+#ifdef __AVX2__
+void write_few(ColliderIndex a, const ColliderIndex* other, std::size_t count, CandidatePair* out) {
+  const __m128i lanes = _mm_set_epi32(3, 2, 1, 0);
+  const __m128i used = _mm_cmpgt_epi32(_mm_set1_epi32(static_cast<int>(count)), lanes);
+  __m128i v = _mm_maskload_epi32(reinterpret_cast<const int*>(other), used);
+  v = _mm_or_si128(v, _mm_xor_si128(used, _mm_set1_epi32(-1)));  // unused lanes go to the end
+  // A sorting network: neighbours, then outer and inner two, then neighbours.
+  const auto exchange = [](__m128i mine, __m128i theirs, auto upper) {
+    return _mm_blend_epi32(_mm_min_epu32(mine, theirs), _mm_max_epu32(mine, theirs), upper());
+  };
+  v = exchange(v, _mm_shuffle_epi32(v, _MM_SHUFFLE(2, 3, 0, 1)), [] { return 0b1010; });
+  v = exchange(v, _mm_shuffle_epi32(v, _MM_SHUFFLE(0, 1, 2, 3)), [] { return 0b1100; });
+  v = exchange(v, _mm_shuffle_epi32(v, _MM_SHUFFLE(2, 3, 0, 1)), [] { return 0b1010; });
+  const __m128i first = _mm_set1_epi32(static_cast<int>(a));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_unpacklo_epi32(first, v));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + 2), _mm_unpackhi_epi32(first, v));
 }
+#else
+void write_few(ColliderIndex a, const ColliderIndex* other, std::size_t count, CandidatePair* out) {
+  std::array<ColliderIndex, kFew> v;
+  std::copy_n(other, count, v.begin());
+  sort_some(v.data(), v.data() + count);
+  for (std::size_t k = 0; k < count; ++k) out[k] = {a, v[k]};
+}
+#endif
 
 }  // namespace
 
-template <class BodyOf>
-void PairSorter::count_and_scatter(std::span<const std::vector<ColliderPair>> parts, std::size_t body_count,
-                                   const BodyOf& body_of) {
-  // Counts land one place late, so that after the scatter first_[i] is where the pairs of body i begin.
-  first_.assign(body_count + 2, 0);
-  std::size_t total = 0;
-  for (const auto& part : parts) {
-    total += part.size();
-    for (const ColliderPair& pair : part) ++first_[body_of(pair.a) + 2];
-  }
+void PairSorter::sort(std::span<const CandidatePair> candidates, std::size_t colliders) {
+  // Counts land one place late, so that after the scatter first_[a] is where the pairs of a begin.
+  first_.assign(colliders + 2, 0);
+  for (const CandidatePair& pair : candidates) ++first_[std::size_t{std::min(pair.a, pair.b)} + 2];
   for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  sorted_.resize(total);
-  for (const auto& part : parts) {
-    for (const ColliderPair& pair : part) sorted_[first_[body_of(pair.a) + 1]++] = pair;
+  resize_kept(candidates.size(), other_);
+  for (const CandidatePair& pair : candidates) {
+    other_[first_[std::size_t{std::min(pair.a, pair.b)} + 1]++] = std::max(pair.a, pair.b);
   }
 }
 
-template <class Less>
-void PairSorter::sort_bodies(std::size_t body_count, const Less& less, const Executor& executor) {
-  std::atomic<bool> doubles{false};
-  executor.for_chunks(body_count, kBodiesPerChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      sort_few(sorted_.data() + first_[i], sorted_.data() + first_[i + 1], less);
+void PairSorter::in_order(std::size_t first, std::size_t last,
+                          const std::function<void(std::span<const CandidatePair>)>& take) {
+  std::array<CandidatePair, kBatch + kFew> batch;
+  std::size_t filled = 0;
+  const auto flush = [&] {
+    take(std::span{batch}.first(filled));
+    filled = 0;
+  };
+  for (std::size_t i = first; i < last; ++i) {
+    const auto a = static_cast<ColliderIndex>(i);
+    ColliderIndex* const other = other_.data() + first_[i];
+    const std::size_t count = first_[i + 1] - first_[i];
+    if (count <= kFew) {
+      write_few(a, other, count, &batch[filled]);
+      filled += count;
+    } else {
+      sort_some(other, other + count);
+      for (std::size_t k = 0; k < count; ++k) {
+        batch[filled++] = {a, other[k]};
+        if (filled >= kBatch) flush();
+      }
     }
-    const auto at = [&](std::size_t body) { return sorted_.begin() + first_[body]; };
-    if (std::adjacent_find(at(begin), at(end), same) != at(end)) doubles = true;
-  });
-  // Doubles have one body a, so they never lie on two sides of the end of a chunk.
-  if (doubles) sorted_.erase(std::unique(sorted_.begin(), sorted_.end(), same), sorted_.end());
-}
-
-std::span<const ColliderPair> PairSorter::sort(std::span<const std::vector<ColliderPair>> parts,
-                                               std::span<const BodyIndex> body, std::size_t body_count,
-                                               const Executor& executor) {
-  if (one_each(body, body_count)) {
-    count_and_scatter(parts, body_count, [](ColliderIndex i) { return i; });
-    sort_bodies(
-        body_count, [](const ColliderPair& l, const ColliderPair& r) { return l.b < r.b; }, executor);
-  } else {
-    count_and_scatter(parts, body_count, [&](ColliderIndex i) { return body[i]; });
-    const auto less = [&](const ColliderPair& l, const ColliderPair& r) {
-      if (body[l.b] != body[r.b]) return body[l.b] < body[r.b];
-      return l.a != r.a ? l.a < r.a : l.b < r.b;
-    };
-    sort_bodies(body_count, less, executor);
+    if (filled >= kBatch) flush();
   }
-  return sorted_;
+  if (filled > 0) flush();
 }
 
-void PairSorter::release_buffers() { release(first_, sorted_); }
+void PairSorter::release_buffers() { release(first_, other_); }
 
 }  // namespace scree

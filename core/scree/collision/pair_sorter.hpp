@@ -1,6 +1,7 @@
-// PairSorter: brings pairs of colliders into the order of contacts.
+// PairSorter: brings candidates into the order of their colliders.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -9,30 +10,29 @@
 
 namespace scree {
 
-class Executor;
-
-/// Sorts by (body a, body b, collider a, collider b) and drops doubles. A
-/// counting sort over the first body, then small sorts: linear for bodies that
-/// meet a bounded number of others. Buffers are kept between calls.
+/// Candidates by their first collider: a counting sort that keeps the second one alone, four bytes a pair; the few pairs of a
+/// collider are sorted when they are asked for. Linear for colliders that meet a bounded number of others. Buffers are
+/// kept between calls.
 class PairSorter {
  public:
-  /// `body` gives the body of every collider; bodies are below `body_count`.
-  /// The result is valid until the next call.
-  std::span<const ColliderPair> sort(std::span<const std::vector<ColliderPair>> parts, std::span<const BodyIndex> body,
-                                     std::size_t body_count, const Executor& executor);
+  /// Takes candidates in any order, either way round, some perhaps twice. Colliders are below `colliders`.
+  void sort(std::span<const CandidatePair> candidates, std::size_t colliders);
 
-  /// Frees all memory; ends what sort() returned.
+  /// Number of pairs, doubles included.
+  [[nodiscard]] std::size_t size() const { return other_.size(); }
+  /// Where the pairs of collider a begin, in the order of a; a may be one beyond the last.
+  [[nodiscard]] std::size_t begin(std::size_t a) const { return first_[a]; }
+
+  /// Gives all pairs {a, b}, a < b, of the colliders a in first..last-1, sorted, doubles side by side, to `take`, some
+  /// hundreds at a time. May be called from several threads for different colliders.
+  void in_order(std::size_t first, std::size_t last, const std::function<void(std::span<const CandidatePair>)>& take);
+
+  /// Frees all memory.
   void release_buffers();
 
  private:
-  template <class BodyOf>
-  void count_and_scatter(std::span<const std::vector<ColliderPair>> parts, std::size_t body_count,
-                         const BodyOf& body_of);
-  template <class Less>
-  void sort_bodies(std::size_t body_count, const Less& less, const Executor& executor);
-
-  std::vector<std::uint32_t> first_;  // pair of each body a
-  UninitialisedVector<ColliderPair> sorted_;
+  std::vector<std::uint32_t> first_;
+  UninitialisedVector<ColliderIndex> other_;
 };
 
 }  // namespace scree

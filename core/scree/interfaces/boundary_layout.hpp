@@ -83,9 +83,9 @@ constexpr std::uint64_t boundary_layout() {
   add_contact_problem(digest);
   digest.add<ColliderView>({offsetof(ColliderView, key), offsetof(ColliderView, body),
                             offsetof(ColliderView, primitive), offsetof(ColliderView, pose),
-                            offsetof(ColliderView, box), offsetof(ColliderView, movable)});
-  digest.add<BoxView>(
-      {offsetof(BoxView, key), offsetof(BoxView, box), offsetof(BoxView, movable), offsetof(BoxView, owner)});
+                            offsetof(ColliderView, movable), offsetof(ColliderView, ball)});
+  digest.add<BoxView>({offsetof(BoxView, key), offsetof(BoxView, box), offsetof(BoxView, movable),
+                       offsetof(BoxView, owner), offsetof(BoxView, ball), offsetof(BoxView, margin)});
   digest.add<Primitive>({offsetof(Primitive, local), offsetof(Primitive, size), offsetof(Primitive, bounding_radius)});
   digest.add<ContactMaterial>({offsetof(ContactMaterial, friction), offsetof(ContactMaterial, restitution),
                                offsetof(ContactMaterial, rolling_friction),

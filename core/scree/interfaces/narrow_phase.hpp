@@ -21,6 +21,8 @@ class NarrowPhase : public Plugin {
   [[nodiscard]] virtual bool supports(ShapeKind a, ShapeKind b) const = 0;
   /// The same for a hollow cylinder, a drum seen from inside, and what lies in it; supports() speaks of solid cylinders.
   [[nodiscard]] virtual bool supports_hollow([[maybe_unused]] ShapeKind inside) const { return false; }
+  /// False for a phase that takes a sphere's place from ColliderView::ball: in a scene of spheres poses need not be written.
+  [[nodiscard]] virtual bool reads_sphere_poses() const { return true; }
   /// Called after setup and whenever shapes were added: primitives from
   /// `first_new` on are new. `shapes` outlives this.
   virtual void bind(const ShapeSet& shapes, std::size_t first_new_primitive);

@@ -1,0 +1,156 @@
+// The search of `grid`: who is near whom, and who of these meets.
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+#include <array>
+
+#include "grid.hpp"
+
+namespace scree {
+namespace {
+
+/// What is near is looked at more closely so many pairs at a time.
+constexpr std::size_t kNear = 1024;
+
+}  // namespace
+
+/// True when the lower corner of neither lies beyond the upper one of the other.
+bool Grid::meets(const Item& item, const Item& other) {
+#ifdef __AVX__
+  // lower + (minus_upper of the other) <= 0 would round: halves are exchanged and signs turned instead.
+  const __m256 corners = _mm256_load_ps(item.lower.data());
+  const __m256 exchanged = _mm256_permute2f128_ps(corners, corners, 1);
+  const __m256 limit = _mm256_xor_ps(exchanged, _mm256_set1_ps(-0.0f));
+  // Six of the eight numbers are coordinates.
+  return (_mm256_movemask_ps(_mm256_cmp_ps(_mm256_load_ps(other.lower.data()), limit, _CMP_LE_OQ)) & 0x77) == 0x77;
+#else
+  bool meet = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    meet &= (other.lower[k] <= -item.minus_upper[k]) & (other.minus_upper[k] <= -item.lower[k]);
+  }
+  return meet;
+#endif
+}
+
+/// True when two boxes meet that belong to two owners and can move, one at least.
+bool Grid::are_wanted(const Item& item, const Item& other) {
+  return meets(item, other) & (((item.box | other.box) & kMovable) != 0) & (item.owner != other.owner);
+}
+
+void Grid::keep_meeting(Found& found, std::vector<CandidatePair>& out) const {
+  const auto box_of = [&](std::uint32_t item) { return order_[item]; };
+  std::array<CandidatePair, 128> batch;
+  for (std::size_t first = 0; first < found.near_count; first += batch.size()) {
+    const std::size_t last = std::min(first + batch.size(), found.near_count);
+    // Every pair is written, and overwritten by the next one unless it counts: a branch here would be guessed wrong often.
+    std::size_t count = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      const auto [one, other] = found.near[k];
+      batch[count] = {box_of(one), box_of(other)};
+      count += balls_alone_ || are_wanted(sorted_[one], sorted_[other]);
+    }
+    out.insert(out.end(), batch.begin(), batch.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  found.near_count = 0;
+}
+
+void Grid::search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const {
+  std::array<float, 3> lower, upper;
+  if (balls_alone_) {
+    const grid::Ball ball = balls_[i];
+    lower = {ball.x - ball.r, ball.y - ball.r, ball.z - ball.r};
+    upper = {ball.x + ball.r, ball.y + ball.r, ball.z + ball.r};
+  } else {
+    lower = sorted_[i].lower;
+    for (std::size_t k = 0; k < 3; ++k) upper[k] = -sorted_[i].minus_upper[k];
+  }
+  std::array<grid::CellRange, 3> range;
+  for (std::size_t k = 0; k < 3; ++k) {
+    range[k] = level.axis[k].clip(level.cell_of(double{lower[k]} - 0.5 * level.cell),
+                                  level.cell_of(double{upper[k]} + 0.5 * level.cell));
+    if (range[k].last < range[k].first) return;
+  }
+  const grid::LevelAxis& x_axis = level.axis[0];
+  const std::uint32_t x0 = x_axis.store(range[0].first);
+  const std::uint32_t x1 = x_axis.store(range[0].last);
+  const auto scan = [&](std::uint32_t row, std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t first = std::max(cell_begin_[row + from], begin), last = cell_begin_[row + to + 1];
+    if (first >= last) return;
+    found.make_room(last - first);
+    found.near_count += balls_.meeting(i, first, last, &found.near[found.near_count]);
+  };
+  for (std::int32_t z = range[2].first; z <= range[2].last; ++z) {
+    for (std::int32_t y = range[1].first; y <= range[1].last; ++y) {
+      // Cells of a row follow each other, and so do their boxes.
+      const std::uint32_t row = level.index(0, level.axis[1].store(y), level.axis[2].store(z));
+      if (x0 <= x1) {
+        scan(row, x0, x1);
+      } else {
+        scan(row, x0, static_cast<std::uint32_t>(x_axis.stored) - 1);
+        scan(row, 0, x1);
+      }
+    }
+  }
+}
+
+void Grid::find_rows(const grid::Level& level, std::uint32_t cell, grid::Rows& rows) const {
+  const auto width = static_cast<std::uint32_t>(level.axis[0].stored);
+  const auto depth = static_cast<std::uint32_t>(level.axis[1].stored);
+  const auto height = static_cast<std::uint32_t>(level.axis[2].stored);
+  const std::uint32_t line = (cell - level.first_cell) / width, x = cell - level.first_cell - line * width;
+  const std::uint32_t z = line / depth, y = line - z * depth;
+  const std::uint32_t* const begin = cell_begin_.data() + cell;
+  // Cells from one before to one behind, where there are these.
+  const std::uint32_t before = x > 0 ? 1 : 0, behind = x + 1 < width ? 1 : 0;
+  const auto set = [&](std::size_t k, std::size_t ahead, bool exists) {
+    rows.first[k] = exists ? begin[ahead - before] : 0;
+    rows.last[k] = exists ? begin[ahead + behind + 1] : 0;
+  };
+  const std::size_t next_y = width, next_z = std::size_t{width} * depth;
+  const bool above = z + 1 < height;
+  rows.last[0] = begin[behind + 1];
+  set(1, next_y, y + 1 < depth);
+  set(2, next_z - next_y, above && y > 0);
+  set(3, next_z, above);
+  set(4, next_z + next_y, above && y + 1 < depth);
+  rows.note_lengths();
+}
+
+void Grid::search(std::size_t first, std::size_t last, Found& found, std::vector<CandidatePair>& out) const {
+  found.near_count = 0;
+  const auto at = std::upper_bound(cell_begin_.begin(), cell_begin_.end(), static_cast<std::uint32_t>(first));
+  auto cell = static_cast<std::uint32_t>(at - cell_begin_.begin()) - 1;
+  std::uint32_t end_of_cell = 0;  // of the cell whose rows are known
+  std::size_t own = 0;
+  grid::Rows rows;
+  std::size_t most = 0;
+  for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
+    while (cell_begin_[std::size_t{cell} + 1] <= i) ++cell;
+    while (own + 1 < level_count_ && cell >= levels_[own + 1].first_cell) ++own;
+    const grid::Level& level = levels_[own];
+    // Of two boxes of one level the first one finds the other.
+    if (level.is_wrapped()) {
+      search_level(i, level, i + 1, found);
+    } else {
+      if (i >= end_of_cell) {
+        end_of_cell = cell_begin_[std::size_t{cell} + 1];
+        find_rows(level, cell, rows);
+        most = rows.last[0] - i;
+        for (std::size_t k = 1; k < 5; ++k) most += rows.last[k] - rows.first[k];
+      }
+      found.make_room(most);
+      rows.begin_at(i + 1);
+      found.near_count += balls_.meeting(i, rows, &found.near[found.near_count]);
+    }
+    for (std::size_t l = own + 1; l < level_count_; ++l) {
+      if (levels_[l].boxes > 0) search_level(i, levels_[l], 0, found);
+    }
+    // While they are in the cache.
+    if (found.near_count >= kNear) keep_meeting(found, out);
+  }
+  keep_meeting(found, out);
+}
+
+}  // namespace scree
