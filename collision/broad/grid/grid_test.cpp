@@ -16,7 +16,8 @@ TEST(Grid, a_drum_costs_one_candidate_a_grain) {
   TestBoxes boxes;
   boxes.add({0, 0, 0}, {1, 1, 1}, false);
   for (int i = 0; i < 4096; ++i) {
-    boxes.add({-0.8 + 0.1 * (i % 16), -0.8 + 0.1 * (i / 16 % 16), -0.8 + 0.1 * (i / 256)}, {2.5e-4, 2.5e-4, 2.5e-4});
+    const int row = i / 16, layer = row / 16;
+    boxes.add({-0.8 + 0.1 * (i % 16), -0.8 + 0.1 * (row % 16), -0.8 + 0.1 * layer}, {2.5e-4, 2.5e-4, 2.5e-4});
   }
   Grid grid;
   std::size_t reported = 0;
