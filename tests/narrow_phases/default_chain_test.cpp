@@ -68,7 +68,7 @@ struct OncePose {
 };
 
 constexpr auto kBox = ShapeKind::box, kHull = ShapeKind::convex_hull, kCapsule = ShapeKind::capsule,
-               kMesh = ShapeKind::triangle_mesh;
+               kMesh = ShapeKind::triangle_mesh, kCone = ShapeKind::cone;
 constexpr OncePose kOnce[] = {
     // The walk to the nearest points ended with another simplex than the distance it reported.
     {kBox, kBox, 234},
@@ -92,6 +92,17 @@ constexpr OncePose kOnce[] = {
     // A triangle that is cut beside its face; a corner so sharp that the way out looks against a triangle's normal.
     {kBox, kMesh, 566},
     {kHull, kMesh, 5224},
+    // Bullet's points lay outside of the solids.
+    {kCone, kCone, 997},
+    // A corner or tip through a facet was led out beside it, as if the solid ended there.
+    {kCone, kMesh, 807},
+    {kCone, kMesh, 966},
+    {kCone, kMesh, 2335},
+    {kCone, kMesh, 2926},
+    {kMesh, kMesh, 1384},
+    {kMesh, kMesh, 7664},
+    {kMesh, kMesh, 8553},
+    {kMesh, kMesh, 9989},
 };
 
 // Law: a fault that has been mended stays mended.

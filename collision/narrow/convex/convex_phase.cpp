@@ -12,6 +12,9 @@ namespace {
 /// Bits of a feature that tell the points of two parts apart.
 constexpr unsigned kPartShift = 16;
 
+/// A fold by less is none [rad].
+constexpr double kLevelFold = 1e-6;
+
 bool is_mesh(const Primitive& p) { return p.kind == ShapeKind::triangle_mesh; }
 
 }  // namespace
@@ -119,13 +122,10 @@ void ConvexPhase::collide_parts(Pair& pair, std::uint32_t part_a, std::uint32_t 
   const Vec3 place_a = pair.origin + pair.size * a.pose.position, place_b = pair.origin + pair.size * b.pose.position;
   const double side_a = side_of(pair.a, pose_a, part_a, place_b), side_b = side_of(pair.b, pose_b, part_b, place_a);
   const Vec3& n = found->normal;
-  const auto owns = [&](std::uint32_t primitive, const Pose& pose, std::uint32_t part, double side, const Vec3& on,
-                        const Vec3& out) {
-    return side == 0.0 || meshes_[primitive]->owns(part, transform_back(pose, pair.origin + pair.size * on),
-                                                   rotate_back(pose.orientation, out), side);
+  const auto owns = [&](std::uint32_t primitive, const Pose& pose, std::uint32_t part, double side, const Vec3& out) {
+    return side == 0.0 || meshes_[primitive]->owns(part, rotate_back(pose.orientation, out), side);
   };
-  const bool owned =
-      owns(pair.a, pose_a, part_a, side_a, found->on_a, n) && owns(pair.b, pose_b, part_b, side_b, found->on_b, -n);
+  const bool owned = owns(pair.a, pose_a, part_a, side_a, n) && owns(pair.b, pose_b, part_b, side_b, -n);
   if (owned) return add_manifold(pair, part_a, part_b, a, b, *found);
   if (found->gap <= 0.0) pair.orphans.emplace_back(part_a, part_b);
 }
@@ -135,6 +135,14 @@ ConvexSolid ConvexPhase::patch(const Pair& pair, std::uint32_t primitive, const 
   ConvexSolid made = solid(pair, primitive, pose, parts[0]);
   if (meshes_[primitive] == nullptr) return made;
   static const FaceLoops none;
+  // Across edges that are no valleys the solid goes on; the way out of a triangle alone may lead there.
+  const std::size_t count = parts.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const SurfaceTriangle& t = meshes_[primitive]->triangle(parts[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (meshes_[primitive]->closed() && t.fold[k] > -kLevelFold) parts.push_back(t.next[k]);
+    }
+  }
   std::ranges::sort(parts);
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   for (const std::uint32_t i : parts) {
@@ -216,7 +224,9 @@ void ConvexPhase::collide_pair(Pair& pair) const {
       }
     }
   }
-  if (pair.out.size() == begin && !pair.orphans.empty()) add_orphans(pair);
+  const auto overlaps = [](const Contact& c) { return c.gap <= 0.0; };
+  const auto first = pair.out.begin() + static_cast<std::ptrdiff_t>(begin);
+  if (!pair.orphans.empty() && std::none_of(first, pair.out.end(), overlaps)) add_orphans(pair);
   std::sort(pair.out.begin() + static_cast<std::ptrdiff_t>(begin), pair.out.end(),
             [](const Contact& l, const Contact& r) { return l.feature < r.feature; });
 }

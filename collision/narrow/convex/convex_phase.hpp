@@ -36,7 +36,7 @@ class ConvexPhase : public NarrowPhase {
   void add_manifold(Pair& pair, std::uint32_t part_a, std::uint32_t part_b, const ConvexSolid& a, const ConvexSolid& b,
                     const Separation& found) const;
   void add_orphans(Pair& pair) const;
-  /// The hull of some triangles of a mesh, kept in `corners`; all of what is no mesh.
+  /// The hull of some triangles of a mesh and of those across their convex edges, kept in `corners`; all of what is no mesh.
   [[nodiscard]] ConvexSolid patch(const Pair& pair, std::uint32_t primitive, const Pose& pose,
                                   std::vector<std::uint32_t> parts, std::vector<Vec3>& corners) const;
   /// Of a triangle: 1 when the other solid is in front of it or the mesh is closed, else -1; 0 of all that is no mesh.

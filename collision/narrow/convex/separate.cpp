@@ -97,6 +97,44 @@ void add_likely(const ConvexSolid& a, const ConvexSolid& b, std::vector<Vec3>& o
   add_face_normals(b, -1.0, out);
 }
 
+/// Directions of the edges of a box or hull, in the pair's frame.
+void add_edges(const ConvexSolid& solid, std::vector<Vec3>& out) {
+  const auto add = [&](const Vec3& edge) { out.push_back(rotate(solid.pose.orientation, edge)); };
+  if (solid.kind == ShapeKind::box) {
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) add(axis);
+  }
+  if (solid.kind != ShapeKind::convex_hull || solid.loops == nullptr) return;
+  for (const auto& loop : *solid.loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const std::uint32_t from = loop[k], to = loop[(k + 1) % loop.size()];
+      if (from < to) add(normalized(solid.vertices[to] - solid.vertices[from]));
+    }
+  }
+}
+
+/// Across each edge of one and each of the other: with the normals of faces, all there is for two polyhedra.
+void add_across_edges(const ConvexSolid& a, const ConvexSolid& b, std::vector<Vec3>& out) {
+  std::vector<Vec3> of_a, of_b;
+  add_edges(a, of_a);
+  add_edges(b, of_b);
+  for (const Vec3& u : of_a) {
+    for (const Vec3& v : of_b) {
+      const Vec3 n = normalized(cross(u, v));
+      if (!(squared_norm(n) > 0.5)) continue;
+      out.push_back(n);
+      out.push_back(-n);
+    }
+  }
+}
+
+/// Whether a point is one of a solid, to what an answer may miss.
+bool is_on(const ConvexSolid& solid, const Vec3& point) {
+  ConvexSolid dot_solid;
+  dot_solid.pose.position = point;
+  const Closest way = distance(dot_solid, solid, {});
+  return !way.apart || way.distance - solid.round < kTrust;
+}
+
 }  // namespace
 
 std::optional<Separation> climb(const ConvexSolid& a, const ConvexSolid& b, const Vec3& start) {
@@ -168,7 +206,8 @@ std::optional<Separation> checked(const ConvexSolid& a, const ConvexSolid& b, co
   const double claimed = answer.of_cores ? answer.distance - a.round - b.round : answer.distance;
   const bool has_points = is_finite(answer.on_a) && is_finite(answer.on_b);
   std::optional<Separation> found;
-  if (has_points && std::abs(separation(a, b, n) - claimed) <= kExact) {
+  if (has_points && std::abs(separation(a, b, n) - claimed) <= kExact &&
+      (answer.of_cores || (is_on(a, answer.on_a) && is_on(b, answer.on_b)))) {
     found = at(a, b, n, answer.on_a, answer.on_b);
   } else {
     found = climb(a, b, n);
@@ -183,6 +222,7 @@ Separation best_climb(const ConvexSolid& a, const ConvexSolid& b) {
   constexpr std::size_t kClimbs = 24;
   std::vector<Vec3> likely;
   add_likely(a, b, likely);
+  add_across_edges(a, b, likely);
   if (const auto best = climb_from_best(a, b, likely, kClimbs)) return *best;
   const Vec3 n = *std::ranges::max_element(likely, {}, [&](const Vec3& d) { return separation(a, b, d); });
   return at(a, b, n, core_support(a, n), core_support(b, -n));

@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kLeaf = 4;
 /// Normals this far beyond an edge still count as those of the triangle [rad].
 constexpr double kSlack = 0.01;
-/// A point whose share of a corner is less lies on the edge across from it.
-constexpr double kOnEdge = 1e-6;
+/// Corners this near to the farthest one are as far [size of the triangle].
+constexpr double kSameHeight = 1e-6;
 
 Aabb box_of(const SurfaceTriangle& t) {
   return merged(merged(Aabb{t.corner[0], t.corner[0]}, t.corner[1]), t.corner[2]);
@@ -73,8 +73,10 @@ void SurfaceTree::find_folds(const std::vector<Triangle>& corners) {
       const auto neighbour = owner.find({corners[i][(k + 1) % 3], corners[i][k]});
       if (neighbour == owner.end()) {
         t.fold[k] = std::numbers::pi;
+        t.next[k] = i;
         closed_ = false;
       } else {
+        t.next[k] = neighbour->second;
         const Vec3& other = triangle_[neighbour->second].normal;
         t.fold[k] = std::atan2(dot(other, t.out[k]), dot(other, t.normal));
       }
@@ -130,15 +132,14 @@ void SurfaceTree::find(const Aabb& box, std::vector<std::uint32_t>& out) const {
   std::sort(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end());
 }
 
-bool SurfaceTree::owns(std::uint32_t i, const Vec3& point, const Vec3& n, double side) const {
+bool SurfaceTree::owns(std::uint32_t i, const Vec3& n, double side) const {
   const SurfaceTriangle& t = triangle_[i];
-  // Which corners the point is made of.
-  const Vec3 normal = cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
+  std::array<double, 3> height{};
+  for (std::size_t k = 0; k < 3; ++k) height[k] = dot(n, t.corner[k] - t.corner[0]);
+  const double top = std::ranges::max(height);
+  const double level = kSameHeight * (norm(t.corner[1] - t.corner[0]) + norm(t.corner[2] - t.corner[0]));
   std::array<bool, 3> without{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 &p = t.corner[(k + 1) % 3], &q = t.corner[(k + 2) % 3];
-    without[k] = dot(cross(q - p, point - p), normal) < kOnEdge * squared_norm(normal);
-  }
+  for (std::size_t k = 0; k < 3; ++k) without[k] = height[k] < top - level;
   const double up = side * dot(n, t.normal);
   const auto count = std::ranges::count(without, true);
   if (count == 0) return up > 0.0 || !closed_;

@@ -13,10 +13,11 @@ namespace scree::convex {
 
 /// One triangle as a contact sees it.
 struct SurfaceTriangle {
-  std::array<Vec3, 3> corner;    ///< mesh frame [m]
-  Vec3 normal;                   ///< unit, outward
-  std::array<Vec3, 3> out;       ///< across each edge, away from the triangle, in its plane; unit
-  std::array<double, 3> fold{};  ///< its normal to the neighbour's: > 0 at a convex edge, pi at a free one [rad]
+  std::array<Vec3, 3> corner;           ///< mesh frame [m]
+  Vec3 normal;                          ///< unit, outward
+  std::array<Vec3, 3> out;              ///< across each edge, away from the triangle, in its plane; unit
+  std::array<double, 3> fold{};         ///< its normal to the neighbour's: > 0 at a convex edge, pi at a free one [rad]
+  std::array<std::uint32_t, 3> next{};  ///< the triangle across each edge; itself at a free one
   std::array<std::uint32_t, 3> vertex{};  ///< numbers of its corners, the same in all triangles that share them
 };
 
@@ -31,10 +32,10 @@ class SurfaceTree {
   [[nodiscard]] bool closed() const { return closed_; }
   /// Appends the triangles whose boxes meet `box` [m], in increasing order.
   void find(const Aabb& box, std::vector<std::uint32_t>& out) const;
-  /// True when a contact in `point` of this triangle [m], with normal n, a unit vector away from the surface on the side
-  /// of `side` times the triangle's normal, is one of the surface: on an edge it points between the normals of both
-  /// triangles, in a corner no edge rises along it.
-  [[nodiscard]] bool owns(std::uint32_t i, const Vec3& point, const Vec3& n, double side) const;
+  /// True when a contact with normal n, a unit vector away from the surface on the side of `side` times the triangle's normal,
+  /// is one of the surface: the part of the triangle that is farthest along n is its face, or an edge and n points between the
+  /// normals of both triangles, or a corner and no edge rises along n.
+  [[nodiscard]] bool owns(std::uint32_t i, const Vec3& n, double side) const;
 
  private:
   void find_folds(const std::vector<Triangle>& corners);

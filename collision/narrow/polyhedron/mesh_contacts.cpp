@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clip.hpp"
 #include "gjk.hpp"
 #include "mesh_axis.hpp"
 #include "triangle_polytope.hpp"
@@ -89,6 +90,21 @@ class Meeter {
       make_edge_manifold({triangle.view(), mesh_pose_, solid_, pose_}, cut.way, reach_, scratch_.manifold);
       add(cut.triangle);
     }
+  }
+
+  /// A solid that has gone in whole, past all triangles: out through the facet nearest to its middle, by its deepest corner.
+  void lead_out_of_inside() {
+    const Vec3 middle = transform(inverse(mesh_pose_) * pose_, solid_.centre);
+    if (!mesh_.holds(middle)) return;
+    const std::uint32_t i = mesh_.nearest(middle);
+    const TrianglePolytope triangle{mesh_[i]};
+    const PlacedPair pair{triangle.view(), mesh_pose_, solid_, pose_};
+    const Vec3& out = mesh_[i].normal;
+    const std::uint32_t deepest = pair.lowest_of_b(out);
+    const double gap = dot(out, pair.corner_b(deepest) - mesh_[i].corner[0]) - solid_.radius;
+    const Vec3 at = pair.corner_b(deepest) - (solid_.radius + 0.5 * gap) * out;
+    scratch_.found.push_back(
+        {at, out, gap, std::uint64_t{mesh_[i].number} << 32 | feature_of_corner(1, deepest), true});
   }
 
  private:
@@ -195,6 +211,7 @@ void mesh_contacts(const MeshSurface& mesh, const Pose& mesh_pose, const Polytop
     for (const std::uint32_t i : scratch.near) meeter.meet(i, behind);
   }
   meeter.settle_cuts();
+  if (scratch.found.empty()) meeter.lead_out_of_inside();
   const auto by_feature = [](const MeshPoint& l, const MeshPoint& r) { return l.feature < r.feature; };
   std::sort(scratch.found.begin(), scratch.found.end(), by_feature);
   drop_doubles(solid.size + solid.radius, scratch.found);

@@ -213,5 +213,34 @@ TEST(MeshContacts, valley_has_two_sides_and_ridge_one_crest) {
   }
 }
 
+// Law: a solid that has gone whole into a closed mesh is led out: through the wall nearest to its middle, by its depth below that
+// wall.
+TEST(MeshContacts, what_is_inside_is_led_out) {
+  RandomNumbers random{6};
+  const Vec3 half{3, 4, 5};
+  for (int trial = 0; trial < trials(100); ++trial) {
+    const Solid solid = trial % 2 == 0 ? box_solid({0.3, 0.2, 0.25}) : capsule_solid(0.15, 0.3);
+    const TriangleMesh mesh = trial % 4 < 2 ? box_mesh(half) : fine_box(half, 5);
+    const Pose mesh_pose = random.pose(1.0);
+    // The middle is a mesh vertex's or edge's own coordinate in one trial of three.
+    Vec3 at{random.uniform(-2, 2), random.uniform(-3, 3), random.uniform(-4, 4)};
+    if (trial % 3 == 0) at.y = at.z = 0.0;
+    const Pose inside{at, random.rotation()};
+    const ContactBuffer contacts = on_mesh(mesh, solid, mesh_pose, mesh_pose * inside, 0.01);
+    ASSERT_EQ(contacts.size(), 1u) << "trial " << trial;
+    int axis = 0;
+    for (int i = 1; i < 3; ++i) {
+      if (half[i] - std::abs(at[i]) < half[axis] - std::abs(at[axis])) axis = i;
+    }
+    const double side = at[axis] < 0.0 ? -1.0 : 1.0;
+    double lowest = 1e300;
+    for (const Vec3& c : solid.placed(inside)) lowest = std::min(lowest, side * c[axis]);
+    EXPECT_NEAR(contacts[0].gap, lowest - solid.radius - half[axis], 1e-12);
+    Vec3 out;
+    out[axis] = side;
+    EXPECT_LT(norm(contacts[0].normal - rotate(mesh_pose.orientation, out)), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace scree

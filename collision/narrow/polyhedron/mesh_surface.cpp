@@ -1,8 +1,11 @@
 #include "mesh_surface.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <tuple>
+
+#include "simplex.hpp"
 
 namespace scree::polyhedron {
 namespace {
@@ -125,6 +128,50 @@ void MeshSurface::near(const Aabb& box, std::vector<std::uint32_t>& out) const {
     }
     ++n;
   }
+}
+
+/// Whether the ray along x from a point passes a triangle. Both triangles of an edge ask about it in the same words, so that one of
+/// them has it, whatever rounding says.
+bool MeshSurface::is_passed(const MeshTriangle& t, const Vec3& point) const {
+  const auto left_of = [&](std::size_t k) {
+    const auto [low, high] = std::minmax(t.place[k], t.place[(k + 1) % 3]);
+    const Vec3 from = places_[low] - point, to = places_[high] - point;
+    const bool left = from.y * to.z - from.z * to.y >= 0.0;
+    return left == (low == t.place[k]);
+  };
+  if (left_of(0) != left_of(1) || left_of(1) != left_of(2)) return false;
+  return dot(t.normal, t.corner[0] - point) * t.normal.x > 0.0;
+}
+
+bool MeshSurface::holds(const Vec3& point) const {
+  if (!closed_ || !contains(nodes_[0].box, point)) return false;
+  const Aabb ray{point, {nodes_[0].box.upper.x, point.y, point.z}};
+  bool inside = false;
+  for (std::uint32_t n = 0; n < nodes_.size();) {
+    const Node& node = nodes_[n];
+    if (!overlap(node.box, ray)) {
+      n = node.skip;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      inside = inside != is_passed(triangles_[i], point);
+    ++n;
+  }
+  return inside;
+}
+
+std::uint32_t MeshSurface::nearest(const Vec3& point) const {
+  std::uint32_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    Simplex simplex;
+    for (std::uint32_t k = 0; k < 3; ++k) simplex.add({triangles_[i].corner[k] - point, {}, k, k});
+    const double d2 = squared_norm(simplex.reduce(true));
+    if (d2 >= least) continue;
+    least = d2;
+    best = i;
+  }
+  return best;
 }
 
 bool MeshSurface::below(std::uint32_t place, const Vec3& from, const Vec3& m) const {

@@ -38,6 +38,11 @@ class MeshSurface {
   void near(const Aabb& box, std::vector<std::uint32_t>& out) const;
   [[nodiscard]] const MeshTriangle& operator[](std::uint32_t i) const { return triangles_[i]; }
 
+  /// Whether a point [m] lies inside of a closed mesh: how often a ray from it passes the surface.
+  [[nodiscard]] bool holds(const Vec3& point) const;
+  /// The triangle nearest to a point [m]; the mesh has some.
+  [[nodiscard]] std::uint32_t nearest(const Vec3& point) const;
+
   /// True when the surface about corner k of a triangle does not rise above it along m.
   [[nodiscard]] bool corner_admits(const MeshTriangle& t, std::size_t k, const Vec3& m) const;
   /// The same for the edge from corner k to the next one.
@@ -54,6 +59,7 @@ class MeshSurface {
   void weld(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
   void connect();
   void build(std::uint32_t first, std::uint32_t last);
+  [[nodiscard]] bool is_passed(const MeshTriangle& t, const Vec3& point) const;
   [[nodiscard]] bool below(std::uint32_t place, const Vec3& from, const Vec3& m) const;
 
   std::vector<MeshTriangle> triangles_;  // in the order of the tree

@@ -8,16 +8,24 @@
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <string>
 
 #include "scree/base/error.hpp"
+#include "scree/geometry/ply_file.hpp"
 
 namespace scree {
 namespace {
 
-void check_ending(const std::filesystem::path& file) {
+/// The ending of a file, in lower case.
+std::string ending_of(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+void check_ending(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
   constexpr std::array known{".stl", ".obj", ".ply"};
   if (std::ranges::find(known, ending) == known.end()) {
     throw Error{ErrorKind::usage, "the mesh file '" + file.string() + "' ends in '" + ending +
@@ -48,6 +56,24 @@ void append(const aiMesh& part, double scale, TriangleMesh& mesh) {
   }
 }
 
+TriangleMesh read_by_assimp(const std::filesystem::path& file, double scale) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (scene == nullptr) {
+    throw Error{ErrorKind::io, "the mesh file '" + file.string() + "' could not be read as a mesh (" +
+                                   importer.GetErrorString() + "); export it again as STL, OBJ or PLY"};
+  }
+  TriangleMesh soup;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], scale, soup);
+  return soup;
+}
+
+/// By scree itself: Assimp 5.2 reads past the end of a damaged PLY file.
+TriangleMesh read_ply_file(const std::filesystem::path& file, double scale) {
+  std::ifstream in{file, std::ios::binary};
+  return read_ply(in, file.string(), scale);
+}
+
 }  // namespace
 
 TriangleMesh read_mesh_file(const std::filesystem::path& file, double scale) {
@@ -57,14 +83,7 @@ TriangleMesh read_mesh_file(const std::filesystem::path& file, double scale) {
   check_ending(file);
   check_readable(file);
 
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (scene == nullptr) {
-    throw Error{ErrorKind::io, "the mesh file '" + file.string() + "' could not be read as a mesh (" +
-                                   importer.GetErrorString() + "); export it again as STL, OBJ or PLY"};
-  }
-  TriangleMesh soup;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], scale, soup);
+  const TriangleMesh soup = ending_of(file) == ".ply" ? read_ply_file(file, scale) : read_by_assimp(file, scale);
   if (soup.triangles.empty() || !std::ranges::all_of(soup.vertices, [](const Vec3& v) { return is_finite(v); })) {
     throw Error{ErrorKind::io, "the mesh file '" + file.string() +
                                    "' holds no triangles with finite corners; export a triangulated surface"};

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "scree/base/error.hpp"
 #include "scree/geometry/mass_properties.hpp"
@@ -105,6 +108,37 @@ TEST_F(MeshFile, reads_ply) {
     text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
   }
   expect_brick(read_mesh_file(write("brick.ply", text)), 1.0);
+}
+
+// A pyramid over a unit square, one high: its base is a face of four corners, and each vertex has a property more.
+TEST_F(MeshFile, reads_binary_ply_of_either_byte_order) {
+  constexpr std::array<std::array<float, 4>, 5> kCorners{
+      {{0, 0, 0, 9}, {1, 0, 0, 9}, {1, 1, 0, 9}, {0, 1, 0, 9}, {0.5F, 0.5F, 1, 9}}};
+  const std::vector<std::vector<std::int32_t>> faces{{3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  for (const bool big : {false, true}) {
+    std::string bytes = std::string{"ply\r\nformat binary_"} + (big ? "big" : "little") +
+                        "_endian 1.0\r\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+                        "property float quality\nelement face 5\nproperty list uchar int vertex_index\nend_header\n";
+    const auto put = [&](const auto& value) {
+      const auto* begin = reinterpret_cast<const char*>(&value);
+      std::string part{begin, begin + sizeof value};
+      if (big) std::reverse(part.begin(), part.end());  // the tests run on machines that put the low byte first
+      bytes += part;
+    };
+    for (const auto& corner : kCorners) {
+      for (const float x : corner) put(x);
+    }
+    for (const auto& face : faces) {
+      put(static_cast<std::uint8_t>(face.size()));
+      for (const std::int32_t corner : face) put(corner);
+    }
+    const TriangleMesh mesh = read_mesh_file(write("pyramid.ply", bytes));
+    EXPECT_EQ(mesh.triangles.size(), 6u);
+    EXPECT_NEAR(mesh_mass_properties(mesh).volume, 1.0 / 3.0, 1e-7);
+    for (std::size_t cut = 1; cut < 40; cut += 13) {
+      expect_refused(write("cut.ply", bytes.substr(0, bytes.size() - cut)), ErrorKind::io, "ends early");
+    }
+  }
 }
 
 TEST_F(MeshFile, scales_millimetres_to_metres) {
