@@ -35,7 +35,9 @@ Run::Run(Simulation& simulation, const RunOptions& options)
       progress_{options.quiet, simulation.time(), simulation.end_time()},
       recording_{simulation, options.record_ccp, options.output, "--record-ccp"},
       last_checkpoint_{simulation.time()},
-      record_{describe(simulation, options)} {}
+      record_{describe(simulation, options)} {
+  if (!simulation.machine().empty()) joint_log_.emplace(options.output / "joints.csv");
+}
 
 int Run::to_the_end() {
   const InterruptWatch watch;
@@ -77,6 +79,7 @@ void Run::after_step(const StepRecord& step) {
   removed_log_.add(simulation_.removed());
   if (step.step % static_cast<std::uint64_t>(simulation_.steps_every()) == 0 || simulation_.is_done()) {
     step_log_.add(step, simulation_.timer().take());
+    if (joint_log_) joint_log_->add(simulation_.machine(), simulation_.time());
   }
   const double interval = simulation_.checkpoint_interval();
   if (interval > 0.0 && simulation_.time() - last_checkpoint_ > interval - 0.5 * simulation_.time_step()) {
@@ -109,6 +112,7 @@ void Run::finish(int exit_code, const std::string& outcome) {
   simulation_.finish();
   step_log_.close();
   removed_log_.close();
+  if (joint_log_) joint_log_->close();
   write_record(exit_code, outcome);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "ccp_recording.hpp"
@@ -9,6 +10,7 @@
 #include "progress.hpp"
 #include "run_options.hpp"
 #include "run_statistics.hpp"
+#include "scree/results/joint_log.hpp"
 #include "scree/results/run_record.hpp"
 #include "scree/results/step_log.hpp"
 #include "scree/simulation/simulation.hpp"
@@ -44,6 +46,7 @@ class Run {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   StepLog step_log_;
   RemovedLog removed_log_;
+  std::optional<JointLog> joint_log_;  // of scenes with joints
   Progress progress_;
   CcpRecording recording_;
   RunStatistics statistics_;

@@ -72,8 +72,10 @@ class FakeStepServices final : public StepServices {
         if (i < problem.contacts.size()) {
           update_contact(problem, i, u, gamma);
         } else {
-          // Below twice the inverse of the greatest eigenvalue: each update gains.
-          update_block(problem, i - problem.contacts.size(), 2.0 / delassus.traces()[i], u, gamma);
+          // Below twice the inverse of the greatest eigenvalue: each update gains. Of six rows it is not the whole trace.
+          const std::size_t block = i - problem.contacts.size();
+          const double step = problem.blocks[block].rows == 6 ? 2.0 : 1.0;
+          update_block(problem, block, step / delassus.traces()[i], u, gamma);
         }
       }
       ++summary.iterations;
@@ -86,7 +88,9 @@ class FakeStepServices final : public StepServices {
 
   [[nodiscard]] const Materials& materials() const override { return materials_; }
   [[nodiscard]] const Executor& executor() const override { return executor_; }
+  [[nodiscard]] Machine* machine() override { return joints; }
 
+  Machine* joints = nullptr;      ///< of the scene; none
   Vec3 gravity{0.0, 0.0, -9.81};  ///< [m/s2]
   double tolerance = 1e-13;       ///< of the solver [m/s]
   int solves = 0;                 ///< CCPs solved so far

@@ -9,6 +9,7 @@ REFUSED = [
     (re.compile(r"\.\./shared\b"), "a path outside the repository; bring the file in or cite its source."),
     (re.compile(r"\b(?:DESIGN|PHYSICS|STYLE|PEERS)(?:\.md| sections?\b|'s?\b)"),
      "a document that is not in the repository; cite docs/, or the paper and its equation."),
+    (re.compile(r"^(?:<{7}|>{7}) "), "a mark that a merge left; choose a side."),
     (re.compile(r"\bCo-authored-by:", re.IGNORECASE), "authors stand in LICENSE, not in files."),
 ]
 THIS_RULE = ("tools/check/words.py", "tools/check/rules_test.py")

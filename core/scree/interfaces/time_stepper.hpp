@@ -11,6 +11,7 @@
 
 namespace scree {
 
+class Machine;
 class Materials;
 class SceneServices;
 
@@ -33,23 +34,27 @@ class StepServices {
   virtual SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) = 0;
   [[nodiscard]] virtual const Materials& materials() const = 0;
   [[nodiscard]] virtual const Executor& executor() const = 0;
+  /// The joints and motors of the scene; null when there are none. See Machine for its part in a step.
+  [[nodiscard]] virtual Machine* machine() { return nullptr; }
   /// Tells that the step is about to change bodies; see TimeStepper::announces_motion().
   virtual void before_motion() {}
 };
 
 /// What a step did to the dynamic bodies: their kinetic energy changes by
-///     force_work + boundary_work - contact_loss.
+///     force_work + boundary_work + joint_work - contact_loss.
 /// Each is an impulse times the mean of the velocities at the beginning and at the end of the step.
 struct StepWork {
   double contact_loss = 0.0;  ///< - sum over contacts of gamma . (u0 + u1) / 2 [J], rolling and spinning included; what
                               ///< compliant contacts store counts as lost, and comes back
   double boundary_work = 0.0;  ///< by what moves as told, through contacts: walls, drums, surfaces of conveyors [J]
   double force_work = 0.0;     ///< by all force fields [J]
+  double joint_work = 0.0;     ///< by joints with their springs, and motors [J]
 
   StepWork& operator+=(const StepWork& o) {
     contact_loss += o.contact_loss;
     boundary_work += o.boundary_work;
     force_work += o.force_work;
+    joint_work += o.joint_work;
     return *this;
   }
 };
@@ -79,6 +84,9 @@ class TimeStepper : public Plugin {
   /// True when contacts resist rolling and spinning (ContactMaterial::rolling_friction, spinning_friction). A scene that
   /// sets them for a stepper that does not is refused.
   [[nodiscard]] virtual bool resists_rolling() const { return false; }
+  /// True when joints and motors (StepServices::machine()) take part in a step. A scene that has them is refused for a
+  /// stepper in which they do not.
+  [[nodiscard]] virtual bool holds_joints() const { return false; }
   /// True when step() calls StepServices::before_motion() once, before it first changes a body. The host then copies what
   /// undoes a failed step only there, when the contact problem and its solver have given their memory back.
   [[nodiscard]] virtual bool announces_motion() const { return false; }

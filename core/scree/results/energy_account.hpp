@@ -2,7 +2,7 @@
 //
 // With T the kinetic energy, from the beginning of the run to any later step,
 //
-//     T - T0 = force_work + boundary_work - contact_loss + fed_kinetic
+//     T - T0 = force_work + boundary_work + joint_work - contact_loss + fed_kinetic
 //
 // to rounding, as every step counts an impulse times the mean of the velocities
 // before and after it. (Turning a body whose moments differ without the

@@ -156,13 +156,13 @@ TEST_F(ResultsTest, steps_and_removed_bodies_have_units_in_their_headers) {
   record.time = 0.25;
   record.status = "converged";
   record.fallbacks = 4;
-  record.energy = {1.5, -2.5, {3.5, 4.5, 5.5}, 6.5};
+  record.energy = {1.5, -2.5, {3.5, 4.5, 5.5, 7.5}, 6.5};
   steps.add(record, std::vector<double>{0.5, 0.75});
   EXPECT_EQ(read(folder / "steps.csv"),
             "step,time [s],bodies,contacts,iterations,residual [m/s],status,mean_penetration [1],max_penetration [m],"
             "kinetic_energy [J],potential_energy [J],contact_loss [J],boundary_work [J],force_work [J],"
-            "fed_kinetic_energy [J],fallbacks,seconds_collision [s],seconds_solver [s]\n"
-            "3,0.25,0,0,0,0,converged,0,0,1.5,-2.5,3.5,4.5,5.5,6.5,4,0.5,0.75\n");
+            "joint_work [J],fed_kinetic_energy [J],fallbacks,seconds_collision [s],seconds_solver [s]\n"
+            "3,0.25,0,0,0,0,converged,0,0,1.5,-2.5,3.5,4.5,5.5,7.5,6.5,4,0.5,0.75\n");
   RemovedLog removed{folder / "removed.csv", materials};
   removed.add(std::vector<RemovedBody>{{17, 0, 0.5, 1.5, {1, 2, 3}, "floor", "left through z = 0"}});
   EXPECT_EQ(read(folder / "removed.csv"),

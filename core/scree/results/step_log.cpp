@@ -21,6 +21,7 @@ std::vector<CsvColumn> step_columns(const std::vector<std::string>& phases) {
                                  {"contact_loss", "J"},
                                  {"boundary_work", "J"},
                                  {"force_work", "J"},
+                                 {"joint_work", "J"},
                                  {"fed_kinetic_energy", "J"},
                                  {"fallbacks", ""}};
   for (const std::string& phase : phases) columns.push_back({"seconds_" + phase, "s"});
@@ -37,7 +38,7 @@ void StepLog::add(const StepRecord& record, std::span<const double> phase_second
   table_.cell(record.residual).cell(record.status).cell(record.mean_penetration).cell(record.max_penetration);
   const EnergyAccount& energy = record.energy;
   table_.cell(energy.kinetic).cell(energy.potential).cell(energy.work.contact_loss).cell(energy.work.boundary_work);
-  table_.cell(energy.work.force_work).cell(energy.fed_kinetic).cell(record.fallbacks);
+  table_.cell(energy.work.force_work).cell(energy.work.joint_work).cell(energy.fed_kinetic).cell(record.fallbacks);
   for (const double seconds : phase_seconds) table_.cell(seconds);
   table_.end_row();
 }

@@ -9,6 +9,7 @@
 #include "scree/config/suggest.hpp"
 #include "scree/config/validate.hpp"
 #include "scree/simulation/scene_filter.hpp"
+#include "scree/simulation/scene_machine.hpp"
 #include "scree/simulation/scene_motion.hpp"
 #include "scree/simulation/scene_sections.hpp"
 #include "scree/simulation/shape_builder.hpp"
@@ -193,6 +194,7 @@ SceneModel read_scene_model(const SceneDocument& document) {
   read_bodies(root, model);
   read_excluded_pairs(root, model);
   read_prescribed_motions(root, model);
+  read_machine(root, model);
   return model;
 }
 

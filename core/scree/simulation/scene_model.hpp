@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scree/config/options.hpp"
+#include "scree/machine/machine_row.hpp"
 #include "scree/machine/prescribed/prescribed_motion.hpp"
 #include "scree/model/body_store.hpp"
 #include "scree/model/material.hpp"
@@ -45,6 +46,8 @@ struct SceneModel {
   std::vector<Options> excluded_pair_options;
   std::vector<PrescribedMotion> motions;
   std::vector<Options> motion_options;
+  MachineDescription machine;
+  std::vector<std::pair<std::string, Options>> machine_options;  ///< joints, then motors, then couplings; by section
   ShapeRemarks remarks;
 };
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "scree/simulation/scene_machine.hpp"
 #include "scree/simulation/scene_motion.hpp"
 
 namespace scree {
@@ -143,7 +144,9 @@ std::vector<SceneSection> model_sections() {
         Parameter::integer("seed", "of all random streams").at_least(0).by_default(1),
         Parameter::number("max_speed", "m/s", "a faster body ends the run as diverged").above(0.0).by_default(1e4),
         Parameter::boolean("allow_overlap", "accept bodies that overlap at the start or when they are born")
-            .by_default(false)}},
+            .by_default(false),
+        Parameter::boolean("assemble", "move bodies until the joints are together, in place of refusing them")
+            .by_default(true)}},
       {"contacts",
        SectionForm::single,
        "What holds between materials that are not listed as a pair.",
@@ -184,7 +187,7 @@ std::vector<SceneSection> model_sections() {
                              "of the surface against the body, about the origin of its shape: a turntable")
                .by_default(Vec3{}),
            Parameter::boolean("collides", "false: nothing touches the body").by_default(true), group_parameter(),
-           Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
+           frames_parameter(), Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
            pose_parameters()},
       {"prescribed_motion", SectionForm::list, "How a kinematic body moves, as functions of time or along a path.",
        prescribed_motion_parameters()}};
@@ -235,6 +238,7 @@ std::vector<Variant> shape_variants() {
 const std::vector<SceneSection>& scene_sections() {
   static const std::vector<SceneSection> sections = [] {
     std::vector<SceneSection> all = model_sections();
+    for (SceneSection& part : machine_sections()) all.push_back(std::move(part));
     for (SceneSection& part : part_sections()) all.push_back(std::move(part));
     return all;
   }();

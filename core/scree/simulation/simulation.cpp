@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "scree/base/release.hpp"
@@ -146,6 +147,7 @@ StepSummary Simulation::State::take_step() {
     check_motion();
     host->tap_next({});
     advance_fields(end);
+    log.insert(log.end(), machine->news().begin(), machine->news().end());
     observe();
     remove_bodies(end);
     ++steps;
@@ -220,6 +222,7 @@ const BodyStore& Simulation::bodies() const { return state_->bodies; }
 const Materials& Simulation::materials() const { return state_->model.materials; }
 const ShapeSet& Simulation::shapes() const { return state_->model.shapes; }
 const CollisionFilter& Simulation::collision_filter() const { return state_->pipeline->filter(); }
+const Machine& Simulation::machine() const { return *state_->machine; }
 const FeedRecord& Simulation::feed() const { return state_->feed; }
 PhaseTimer& Simulation::timer() { return state_->timer; }
 const std::vector<RemovedBody>& Simulation::removed() const { return state_->removed; }
@@ -231,6 +234,12 @@ std::uint64_t Simulation::seed() const { return static_cast<std::uint64_t>(state
 
 namespace {
 
+std::string three_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
 /// Which narrow phases fell back, and how often; no rows when none did.
 ReportTable fallback_table(const std::vector<Part<NarrowPhase>>& phases) {
   ReportTable table{"pairs that a narrow phase computed by its fallback", {"narrow phase", "pairs"}, {}};
@@ -241,10 +250,24 @@ ReportTable fallback_table(const std::vector<Part<NarrowPhase>>& phases) {
   return table;
 }
 
+/// What the motors gave; no rows without.
+ReportTable motor_table(const Machine& machine) {
+  ReportTable table{"motors", {"motor", "effort at the end", "power at the end [W]", "energy given [J]"}, {}};
+  const MachineDescription& m = machine.description();
+  for (std::size_t k = 0; k < m.motors.size(); ++k) {
+    const MachineReport& report = machine.reports()[m.joints.size() + k];
+    const char* unit = m.motors[k].coordinate == Coordinate::rotation ? " N m" : " N";
+    table.rows.push_back({m.motors[k].name, three_digits(report.effort) + unit, three_digits(report.power),
+                          three_digits(report.energy)});
+  }
+  return table;
+}
+
 }  // namespace
 
 std::vector<ReportTable> Simulation::report() const {
   std::vector<ReportTable> tables;
+  if (ReportTable table = motor_table(*state_->machine); !table.rows.empty()) tables.push_back(std::move(table));
   if (ReportTable table = fallback_table(state_->parts.narrow); !table.rows.empty()) tables.push_back(std::move(table));
   for (const Part<Source>& source : state_->parts.sources) {
     for (ReportTable& table : source.plugin->report()) tables.push_back(std::move(table));

@@ -26,6 +26,7 @@ namespace scree {
 
 class BodyStore;
 class CollisionFilter;
+class Machine;
 class Materials;
 class PluginCatalog;
 class SceneDocument;
@@ -65,6 +66,8 @@ class Simulation {
   [[nodiscard]] const ShapeSet& shapes() const;
   /// Who meets whom.
   [[nodiscard]] const CollisionFilter& collision_filter() const;
+  /// Joints and motors; empty without.
+  [[nodiscard]] const Machine& machine() const;
   [[nodiscard]] const FeedRecord& feed() const;
   [[nodiscard]] PhaseTimer& timer();
   /// Bodies taken out in the last step.

@@ -57,6 +57,16 @@ std::string pair_table_json(const Materials& materials) {
   return list_json(rows);
 }
 
+void append_machine(std::string& json, const SceneModel& model) {
+  for (const char* section : {"joint", "motor", "coupling"}) {
+    std::vector<std::string> tables;
+    for (const auto& [of, options] : model.machine_options) {
+      if (of == section) tables.push_back(to_json_text(options, -1));
+    }
+    if (!tables.empty()) append(json, section, list_json(tables));
+  }
+}
+
 /// The scene as JSON. With `motion_only`, without what does not decide how bodies move.
 std::string describe(const SceneModel& model, const Parts& parts, bool motion_only) {
   std::string json = "{";
@@ -83,6 +93,7 @@ std::string describe(const SceneModel& model, const Parts& parts, bool motion_on
     for (const Options& motion : model.motion_options) motions.push_back(to_json_text(motion, -1));
     append(json, "prescribed_motion", list_json(motions));
   }
+  append_machine(json, model);
   std::string kind;
   std::vector<std::string> list;
   const auto flush = [&] {
@@ -176,6 +187,7 @@ void Simulation::State::save_to(StateWriter& out) const {
   save_removed(removed, *out.group("removed"));
   model.shapes.save(*out.group("shapes"));
   bodies.save(*out.group("bodies"));
+  machine->save(*out.group("machine"));
   parts.for_each([&](const PartInfo& info, const Options&, Plugin& plugin) {
     // A step that failed leaves the stepper's memory in doubt: the continuation starts it afresh.
     if (failed && info.kind == TimeStepper::kKind) return;
@@ -204,6 +216,7 @@ void Simulation::State::restore_from(const StateReader& in) {
   removed = load_removed(*in.group("removed"));
   model.shapes.load(*in.group("shapes"));
   bodies.load(*in.group("bodies"));
+  machine->load(*in.group("machine"));
   parts.for_each([&](const PartInfo& info, const Options&, Plugin& plugin) {
     if (!in.has(group_name(info))) return;  // new since the checkpoint, an observer say: it starts afresh
     const auto group = in.group(group_name(info));

@@ -5,6 +5,7 @@
 
 #include "scree/config/scene_document.hpp"
 #include "scree/simulation/scene_filter.hpp"
+#include "scree/simulation/scene_machine.hpp"
 #include "scree/simulation/simulation_state.hpp"
 #include "scree/simulation/stepper_needs.hpp"
 
@@ -38,13 +39,17 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
 
   services.emplace(SetupContext{model, bodies, parts, executor, time_step, end_time, log, warnings});
   setup_parts();
+  assemble_machine(model, log);
   add_scene_bodies();
+  machine.emplace(model.machine);
+  machine->start(bodies.view());
 
   std::vector<NarrowPhase*> chain;
   for (const Part<NarrowPhase>& narrow : parts.narrow) chain.push_back(narrow.plugin.get());
   pipeline.emplace(model.shapes, *parts.broad.plugin, std::move(chain), executor);
   fill_filter(model, pipeline->filter());
-  host.emplace(parts, *pipeline, model.materials, executor, timer);
+  exclude_joined(model, pipeline->filter());
+  host.emplace(parts, *pipeline, *machine, model.materials, executor, timer);
   host->on_motion([this] { backup.keep(bodies); });
   if (!model.simulation.boolean("allow_overlap")) host->watch_births(births, model.bodies);
   check_stepper_needs(parts, model, *pipeline, bodies.view());

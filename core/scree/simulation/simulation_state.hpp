@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scree/collision/collision_pipeline.hpp"
+#include "scree/machine/machine.hpp"
 #include "scree/parallel/executor.hpp"
 #include "scree/simulation/birth_check.hpp"
 #include "scree/simulation/parts.hpp"
@@ -45,6 +46,7 @@ struct Simulation::State {
   std::vector<std::string> warnings;
   std::optional<SetupServices> services;
   std::optional<CollisionPipeline> pipeline;
+  std::optional<Machine> machine;
   PhaseTimer timer;
   BirthCheck births;
   std::optional<StepHost> host;

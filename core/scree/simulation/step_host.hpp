@@ -8,6 +8,7 @@
 #include "scree/ccp/active_set.hpp"
 #include "scree/collision/collision_pipeline.hpp"
 #include "scree/interfaces/time_stepper.hpp"
+#include "scree/machine/machine.hpp"
 #include "scree/simulation/birth_check.hpp"
 #include "scree/simulation/parts.hpp"
 #include "scree/simulation/phase_timer.hpp"
@@ -20,9 +21,9 @@ using ProblemTap = std::function<void(const CcpProblem&, std::span<const double>
 /// Answers a stepper from the scene's fields, collision phases and solver, and keeps the time of each.
 class StepHost final : public StepServices {
  public:
-  StepHost(const Parts& parts, CollisionPipeline& pipeline, const Materials& materials, const Executor& executor,
-           PhaseTimer& timer)
-      : parts_{parts}, pipeline_{pipeline}, materials_{materials}, executor_{executor}, timer_{timer} {}
+  StepHost(const Parts& parts, CollisionPipeline& pipeline, Machine& machine, const Materials& materials,
+           const Executor& executor, PhaseTimer& timer)
+      : parts_{parts}, pipeline_{pipeline}, machine_{machine}, materials_{materials}, executor_{executor}, timer_{timer} {}
 
   /// Has the first contacts of a step looked at by `births`; `known` are the bodies of the scene. Both outlive the host.
   void watch_births(BirthCheck& births, std::span<const SceneBody> known) {
@@ -36,6 +37,7 @@ class StepHost final : public StepServices {
   SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) override;
   [[nodiscard]] const Materials& materials() const override { return materials_; }
   [[nodiscard]] const Executor& executor() const override { return executor_; }
+  [[nodiscard]] Machine* machine() override { return machine_.empty() ? nullptr : &machine_; }
   void before_motion() override { on_motion_(); }
   /// What before_motion() calls.
   void on_motion(std::function<void()> action) { on_motion_ = std::move(action); }
@@ -45,6 +47,7 @@ class StepHost final : public StepServices {
  private:
   const Parts& parts_;
   CollisionPipeline& pipeline_;
+  Machine& machine_;
   const Materials& materials_;
   const Executor& executor_;
   PhaseTimer& timer_;

@@ -35,11 +35,19 @@ void check_rolling(const TimeStepper& stepper, const std::string& label, const O
   }
 }
 
+void check_joints(const Parts& parts, const SceneModel& model) {
+  if (parts.stepper.plugin->holds_joints() || model.machine_options.empty()) return;
+  throw model.machine_options.front().second.error(
+      "the scene has joints, but " + parts.stepper.info.label() +
+      " does not hold any; take a stepper that does, such as dvi, or take the joints away");
+}
+
 }  // namespace
 
 void check_stepper_needs(const Parts& parts, const SceneModel& model, const CollisionPipeline& pipeline,
                          const BodyView& bodies) {
   check_solver(parts);
+  check_joints(parts, model);
   check_narrow_phase(parts, pipeline, bodies);
   const std::string label = parts.stepper.info.label();
   for (const NamedOptions& material : model.material_options) {

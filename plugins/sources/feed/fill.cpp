@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <unordered_set>
 
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/state/state_io.hpp"
@@ -72,26 +71,35 @@ Vec3 Fill::middle(std::int64_t cell) const {
   return at;
 }
 
+// Marks the cells that a box meets.
+void Fill::take(const Aabb& box, std::unordered_set<std::int64_t>& taken) const {
+  std::array<std::int64_t, 3> first{}, last{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int a = static_cast<int>(axis);
+    const double n = static_cast<double>(cells_[axis]);
+    first[axis] = static_cast<std::int64_t>(std::clamp(std::floor((box.lower[a] - lower_[a]) / pitch_[a]), 0.0, n));
+    last[axis] =
+        static_cast<std::int64_t>(std::clamp(std::floor((box.upper[a] - lower_[a]) / pitch_[a]) + 1.0, 0.0, n));
+  }
+  const auto across = static_cast<std::size_t>((up_ + 1) % 3), along = static_cast<std::size_t>((up_ + 2) % 3);
+  const auto up = static_cast<std::size_t>(up_);
+  for (std::int64_t k = first[up]; k < last[up]; ++k) {
+    for (std::int64_t j = first[along]; j < last[along]; ++j) {
+      for (std::int64_t i = first[across]; i < last[across]; ++i) {
+        taken.insert((k * cells_[along] + j) * cells_[across] + i);
+      }
+    }
+  }
+}
+
 std::vector<std::int64_t> Fill::free_cells(const BodyView& bodies) const {
   std::unordered_set<std::int64_t> taken;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies.motion[b] != Motion::dynamic) continue;
-    const double reach = shapes_->shapes()[bodies.shape[b]].bounding_radius;
-    std::array<std::int64_t, 3> first{}, last{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const int a = static_cast<int>(axis);
-      const double n = static_cast<double>(cells_[axis]), at = bodies.position[b][a] - lower_[a];
-      first[axis] = static_cast<std::int64_t>(std::clamp(std::floor((at - reach) / pitch_[a]), 0.0, n));
-      last[axis] = static_cast<std::int64_t>(std::clamp(std::floor((at + reach) / pitch_[a]) + 1.0, 0.0, n));
-    }
-    const auto across = static_cast<std::size_t>((up_ + 1) % 3), along = static_cast<std::size_t>((up_ + 2) % 3);
-    const auto up = static_cast<std::size_t>(up_);
-    for (std::int64_t k = first[up]; k < last[up]; ++k) {
-      for (std::int64_t j = first[along]; j < last[along]; ++j) {
-        for (std::int64_t i = first[across]; i < last[across]; ++i) {
-          taken.insert((k * cells_[along] + j) * cells_[across] + i);
-        }
-      }
+    // Primitive by primitive: a drum of staves is hollow.
+    for (const Primitive& part : shapes_->primitives(shapes_->shapes()[bodies.shape[b]])) {
+      if (part.collides)
+        take(bounds(*shapes_, part, Pose{bodies.position[b], bodies.orientation[b]} * part.local), taken);
     }
   }
   std::vector<std::int64_t> free;

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <optional>
+#include <unordered_set>
 #include <vector>
 
 #include "family.hpp"
 #include "scree/interfaces/source.hpp"
+#include "scree/math/aabb.hpp"
 
 namespace scree {
 
@@ -28,6 +30,7 @@ class Fill final : public Source {
  private:
   [[nodiscard]] std::int64_t cell_count() const;
   /// Cells that no bounding sphere of a dynamic body reaches into.
+  void take(const Aabb& box, std::unordered_set<std::int64_t>& taken) const;
   [[nodiscard]] std::vector<std::int64_t> free_cells(const BodyView& bodies) const;
   [[nodiscard]] Vec3 middle(std::int64_t cell) const;
   /// @throws Error (usage) when fewer cells are free than particles wanted.

@@ -61,17 +61,20 @@ const ContactMaterial& pair_of(const BodyView& bodies, const Materials& material
 }  // namespace
 
 void ContactAssembly::build(const FreeMotion& motion, std::span<const Contact> contacts, const Materials& materials,
-                            const ContactLimits& limits, double dt, const Executor& executor) {
+                            const ContactLimits& limits, double dt, const Executor& executor,
+                            const JoinedBodies& joined) {
   keep(motion.bodies, contacts);
-  order_.build(motion.bodies, contacts_);
+  order_.build(motion.bodies, contacts_, joined.bodies);
   sort_units(motion.bodies, materials);
   fill_bodies(motion);
   const std::size_t m = contacts_.size();
-  r_.resize(first_row_of_unit(m));
-  compliance_.assign(any_pair(materials, is_compliant) ? r_.size() : 0, 0.0);
+  const std::size_t joint_rows = joined.problem.rows.size();
+  r_.resize(first_row_of_unit(m) + joint_rows);
+  compliance_.assign(joint_rows > 0 || any_pair(materials, is_compliant) ? r_.size() : 0, 0.0);
   executor.for_chunks(m, kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) fill_unit(motion, materials, limits, dt, i);
   });
+  add_joints(joined.problem);
   if (std::all_of(compliance_.begin(), compliance_.end(), [](double e) { return e == 0.0; })) compliance_.clear();
 }
 
@@ -110,6 +113,21 @@ void ContactAssembly::sort_units(const BodyView& bodies, const Materials& materi
   unit_of_.resize(m);
   for (std::size_t i = 0; i < m; ++i) unit_of_[i] = cursor_[place(contacts_[i])]++;
   if (m >= kManyRecords) release(cursor_);
+}
+
+// After the blocks of rolling contacts.
+void ContactAssembly::add_joints(const MachineProblem& joints) {
+  const std::size_t first = first_joint_row();
+  for (CcpBlock block : joints.blocks) {
+    block.first_row += static_cast<std::uint32_t>(RollingContact::kRows * rolling_.size());
+    block.a = order_.number(block.a);
+    block.b = order_.number(block.b);
+    blocks_.push_back(block);
+  }
+  block_rows_.insert(block_rows_.end(), joints.rows.begin(), joints.rows.end());
+  std::ranges::copy(joints.r, r_.begin() + static_cast<std::ptrdiff_t>(first));
+  if (joints.rows.empty()) return;
+  std::ranges::copy(joints.compliance, compliance_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 void ContactAssembly::fill_bodies(const FreeMotion& motion) {

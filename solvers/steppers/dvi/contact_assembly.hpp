@@ -27,6 +27,7 @@
 #include "rolling_contact.hpp"
 #include "scree/ccp/problem.hpp"
 #include "scree/ccp/twist.hpp"
+#include "scree/machine/machine.hpp"
 #include "spatial_order.hpp"
 
 namespace scree {
@@ -49,14 +50,20 @@ struct FreeMotion {
   std::span<const Vec3> angular_velocity;  ///< v_f [rad/s], world
 };
 
+/// The joints of a step, with the bodies that they tie.
+struct JoinedBodies {
+  std::span<const BodyIndex> bodies;
+  MachineProblem problem;
+};
+
 /// Builds the problem and keeps what is needed to read its answer. Its units
-/// (contacts, then blocks of six rows) are in spatial order each; contacts()
-/// stay in the order in which they were found.
+/// (contacts, then blocks of six rows, then blocks of joints) are in spatial
+/// order each; contacts() stay in the order in which they were found.
 class ContactAssembly {
  public:
   /// Contacts between two bodies that forces do not move are left out. `contacts` outlive what is asked here later.
   void build(const FreeMotion& motion, std::span<const Contact> contacts, const Materials& materials,
-             const ContactLimits& limits, double dt, const Executor& executor);
+             const ContactLimits& limits, double dt, const Executor& executor, const JoinedBodies& joined = {});
 
   [[nodiscard]] CcpProblem problem() const {
     return {.inverse_mass = inverse_mass_,
@@ -71,8 +78,15 @@ class ContactAssembly {
   void release_problem();
   /// Bodies of the scene by number in the problem.
   [[nodiscard]] std::span<const BodyIndex> bodies() const { return order_.bodies(); }
+  /// Number of a body of the scene in the problem.
+  [[nodiscard]] std::uint32_t number(BodyIndex body) const { return order_.number(body); }
   /// The contacts in the problem, as found.
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
+
+  /// True when contacts resist rolling.
+  [[nodiscard]] bool rolls() const { return !rolling_.empty(); }
+  /// The first row of the joints; theirs are the last ones.
+  [[nodiscard]] std::size_t first_joint_row() const { return first_row_of_unit(contacts_.size()); }
 
   /// Of contact k as found: its frame and arms, its first row, and what makes rows of angular velocities, or null.
   [[nodiscard]] const CcpContact& geometry(std::size_t k) const {
@@ -88,6 +102,7 @@ class ContactAssembly {
  private:
   void keep(const BodyView& bodies, std::span<const Contact> contacts);
   void sort_units(const BodyView& bodies, const Materials& materials);
+  void add_joints(const MachineProblem& joints);
   void fill_bodies(const FreeMotion& motion);
   void fill_unit(const FreeMotion& motion, const Materials& materials, const ContactLimits& limits, double dt,
                  std::size_t contact);
@@ -108,8 +123,8 @@ class ContactAssembly {
   std::vector<Mat3> inverse_inertia_;
   std::vector<CcpContact> plain_;
   std::vector<RollingContact> rolling_;
-  std::vector<CcpBlock> blocks_;    ///< one per rolling contact
-  std::vector<CcpRow> block_rows_;  ///< six per rolling contact
+  std::vector<CcpBlock> blocks_;    ///< one per rolling contact, then those of joints
+  std::vector<CcpRow> block_rows_;  ///< six per rolling contact, then those of joints
   std::vector<double> r_;           ///< one per row
   std::vector<double> compliance_;  ///< one per row, or empty
 };

@@ -49,15 +49,17 @@ StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double ti
   if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_, angular_impulse_);
   free_motion(services, bodies.view, time, dt);
   const std::span<const Contact> found = find_contacts(services, bodies.view, dt);
+  const dvi::JoinedBodies joined = pose_joints(services.machine(), bodies.view, time, dt);
   assembly_.build({bodies.view, velocity_, angular_velocity_}, found, services.materials(), options_.limits, dt,
-                  services.executor());
+                  services.executor(), joined);
+  joint_guess_ = joined.problem.guess;
   StepSummary summary;
   summary.contacts = assembly_.contacts().size();
   measure_overlap(bodies.view, summary);
   summary.solve = solve(services, bodies.view, summary, dt);
   services.before_motion();
   move(bodies, services.executor(), dt);
-  if (velocity_.size() >= kManyRecords) release(velocity_, angular_velocity_, gyroscopic_);
+  if (velocity_.size() >= kManyRecords) release(velocity_, angular_velocity_);
   return summary;
 }
 
@@ -67,7 +69,6 @@ void Dvi::free_motion(StepServices& services, const BodyView& bodies, double tim
   torque_.resize(n);
   velocity_.resize(n);
   angular_velocity_.resize(n);
-  gyroscopic_.assign(options_.gyroscopic ? n : 0, Vec3{});
   services.forces(bodies, time, {force_, torque_});
   services.executor().for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -80,10 +81,6 @@ void Dvi::free_motion(StepServices& services, const BodyView& bodies, double tim
       if (torque_[i] != Vec3{}) {
         const Vec3 t = rotate_back(q, torque_[i]);
         angular_velocity_[i] += rotate(q, dt * Vec3{t.x / j.x, t.y / j.y, t.z / j.z});
-      }
-      if (options_.gyroscopic) {
-        gyroscopic_[i] = rotate(q, dvi::gyroscopic_change(j, rotate_back(q, bodies.angular_velocity[i]), dt));
-        angular_velocity_[i] += gyroscopic_[i];
       }
     }
   });
@@ -104,6 +101,30 @@ std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyVi
   return services.contacts(bodies, surface_velocity_, surface_spin_, dt);
 }
 
+dvi::JoinedBodies Dvi::pose_joints(Machine* machine, const BodyView& bodies, double time, double dt) {
+  if (machine == nullptr || machine->empty()) return {};
+  motion_ = [this, &bodies, dt](BodyIndex i, const Twist& v) { return free_step(bodies, i, v, dt).pose; };
+  machine->locate(bodies);
+  joined_.clear();
+  for (const BodyIndex i : machine->bodies()) joined_.push_back({velocity_[i], angular_velocity_[i]});
+  machine->pose(bodies, joined_, motion_, time, dt);
+  return {machine->bodies(), machine->problem()};
+}
+
+// What the solver left in the joints, and their curved ways: after body_velocities(), whose w_ it corrects.
+void Dvi::settle_joints(Machine& machine) {
+  const std::span<const BodyIndex> bodies = machine.bodies();
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Twist& w = w_[assembly_.number(bodies[k])];
+    joined_[k] = {velocity_[bodies[k]] + w.linear, angular_velocity_[bodies[k]] + w.angular};
+  }
+  machine.settle(std::span{gamma_}.subspan(assembly_.first_joint_row()), joined_, motion_);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    Twist& w = w_[assembly_.number(bodies[k])];
+    w = {joined_[k].linear - velocity_[bodies[k]], joined_[k].angular - angular_velocity_[bodies[k]]};
+  }
+}
+
 void Dvi::find_keys(const BodyView& bodies) {
   const std::span<const Contact> contacts = assembly_.contacts();
   keys_.resize(contacts.size());
@@ -112,11 +133,14 @@ void Dvi::find_keys(const BodyView& bodies) {
 
 void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
   gamma_.assign(problem.rows(), 0.0);
+  if (options_.warm_start) {
+    std::ranges::copy(joint_guess_, gamma_.begin() + static_cast<std::ptrdiff_t>(assembly_.first_joint_row()));
+  }
   if (!options_.warm_start || memory_.size() == 0) return;
   find_keys(bodies);
   const std::size_t m = keys_.size();
   world_impulse_.resize(m);
-  world_angular_impulse_.resize(problem.blocks.empty() ? 0 : m);
+  world_angular_impulse_.resize(assembly_.rolls() ? m : 0);
   memory_.recall(keys_, world_impulse_, world_angular_impulse_);
   // A resting contact's impulse goes with the step.
   const double scale = dt / memory_dt_;
@@ -138,7 +162,9 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
   const CcpProblem problem = assembly_.problem();
   recall(bodies, problem, dt);
   SolveSummary solved;
-  if (!problem.empty()) {
+  if (problem.empty()) {
+    w_.assign(problem.bodies(), Twist{});  // bodies whose joints are gone
+  } else {
     if (options_.coulomb) {
       CoulombLimits limits = options_.coulomb_limits;
       limits.solver_has_its_own_goal = true;
@@ -155,13 +181,15 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
     delassus_.bind(problem, &services.executor());
     w_.resize(problem.bodies());
     delassus_.body_velocities(gamma_, w_);
+    if (Machine* machine = services.machine(); machine != nullptr && !machine->empty()) settle_joints(*machine);
     if (problem.contacts.size() >= kManyRecords) delassus_ = {};
   }
-  keep_results(bodies, problem);
+  keep_results(bodies);
   remember(bodies, dt);
-  summary.work = dvi::step_work({bodies, velocity_, angular_velocity_}, assembly_,
-                                {gyroscopic_, std::span{w_}.first(problem.bodies()), impulse_, angular_impulse_},
-                                services.executor(), work_);
+  summary.work =
+      dvi::step_work({bodies, velocity_, angular_velocity_}, assembly_,
+                     {std::span{w_}.first(problem.bodies()), impulse_, angular_impulse_}, services.executor(), work_);
+  if (const Machine* machine = services.machine()) summary.work.joint_work = machine->work();
   for (std::size_t k = 0; k < problem.bodies(); ++k) {
     const BodyIndex body = assembly_.bodies()[k];
     velocity_[body] += w_[k].linear;
@@ -172,12 +200,12 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
 }
 
 // While velocity_ is still that of the free motion.
-void Dvi::keep_results(const BodyView& bodies, const CcpProblem& problem) {
+void Dvi::keep_results(const BodyView& bodies) {
   const std::size_t m = assembly_.contacts().size();
   impulse_.resize(m);
   before_.resize(m);
   after_.resize(m);
-  angular_impulse_.assign(problem.blocks.empty() ? 0 : m, Vec3{});
+  angular_impulse_.assign(assembly_.rolls() ? m : 0, Vec3{});
   const auto free = [&](std::uint32_t number) {
     const BodyIndex body = assembly_.bodies()[number];
     return Twist{velocity_[body], angular_velocity_[body]};
@@ -228,23 +256,34 @@ void Dvi::measure_overlap(const BodyView& bodies, StepSummary& summary) const {
   summary.mean_penetration = closed > 0 ? sum / static_cast<double>(closed) : 0.0;
 }
 
+// Impulses act at the beginning of the step; from there on the body moves freely. With a gyroscopic torque that is Euler's
+// motion, which keeps the angular momentum in the world.
+Dvi::FreeStep Dvi::free_step(const BodyView& bodies, BodyIndex i, const Twist& velocity, double dt) const {
+  const Quat& q = bodies.orientation[i];
+  const Vec3 w = velocity.angular;
+  FreeStep step{{bodies.position[i] + dt * velocity.linear, q}, w};
+  const Vec3 j = bodies.inertia[i];
+  const bool turns_evenly = bodies.motion[i] != Motion::dynamic || (j.x == j.y && j.y == j.z);
+  if (options_.gyroscopic && !turns_evenly) {
+    const Vec3 before = rotate_back(q, w), change = dvi::gyroscopic_change(j, before, dt);
+    step.pose.orientation = dvi::turned(q, dvi::cayley_angle(dt * rotate(q, before + 0.5 * change)));
+    step.angular_velocity = rotate(step.pose.orientation, before + change);
+  } else if (w != Vec3{}) {
+    step.pose.orientation = dvi::turned(q, dt * w);
+  }
+  return step;
+}
+
 void Dvi::move(const BodyState& bodies, const Executor& executor, double dt) const {
   executor.for_chunks(velocity_.size(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (bodies.view.motion[i] == Motion::fixed) continue;
-      Vec3 w = angular_velocity_[i];
-      bodies.position[i] += dt * velocity_[i];
-      if (options_.gyroscopic && gyroscopic_[i] != Vec3{}) {
-        // Turn by the velocity in the middle of the gyroscopic change; the body's own velocity turns with it.
-        const Vec3 angle = dvi::cayley_angle(dt * (w - 0.5 * gyroscopic_[i]));
-        bodies.orientation[i] = dvi::turned(bodies.orientation[i], angle);
-        w = rotate(from_rotation_vector(angle), w);
-      } else if (w != Vec3{}) {
-        bodies.orientation[i] = dvi::turned(bodies.orientation[i], dt * w);
-      }
+      const FreeStep step = free_step(bodies.view, static_cast<BodyIndex>(i), {velocity_[i], angular_velocity_[i]}, dt);
+      bodies.position[i] = step.pose.position;
+      bodies.orientation[i] = step.pose.orientation;
       if (bodies.view.motion[i] != Motion::dynamic) continue;
       bodies.velocity[i] = velocity_[i];
-      bodies.angular_velocity[i] = w;
+      bodies.angular_velocity[i] = step.angular_velocity;
     }
   });
 }

@@ -37,6 +37,7 @@ class Dvi final : public TimeStepper {
 
   [[nodiscard]] bool needs_ccp_solver() const override { return true; }
   [[nodiscard]] bool resists_rolling() const override { return true; }
+  [[nodiscard]] bool holds_joints() const override { return true; }
   [[nodiscard]] bool announces_motion() const override { return true; }
   StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) override;
   [[nodiscard]] ContactView contacts() const override;
@@ -44,15 +45,24 @@ class Dvi final : public TimeStepper {
   void load(const StateReader& in) override;
 
  private:
+  /// Where a body is after a step, and how it turns then.
+  struct FreeStep {
+    Pose pose;
+    Vec3 angular_velocity;  ///< [rad/s], world
+  };
+
   void free_motion(StepServices& services, const BodyView& bodies, double time, double dt);
   std::span<const Contact> find_contacts(StepServices& services, const BodyView& bodies, double dt);
+  [[nodiscard]] dvi::JoinedBodies pose_joints(Machine* machine, const BodyView& bodies, double time, double dt);
+  void settle_joints(Machine& machine);
   SolveSummary solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt);
   void recall(const BodyView& bodies, const CcpProblem& problem, double dt);
   void find_keys(const BodyView& bodies);
-  void keep_results(const BodyView& bodies, const CcpProblem& problem);
+  void keep_results(const BodyView& bodies);
   void remember(const BodyView& bodies, double dt);
   void release_step();
   void measure_overlap(const BodyView& bodies, StepSummary& summary) const;
+  [[nodiscard]] FreeStep free_step(const BodyView& bodies, BodyIndex i, const Twist& velocity, double dt) const;
   void move(const BodyState& bodies, const Executor& executor, double dt) const;
 
   DviOptions options_;
@@ -62,10 +72,12 @@ class Dvi final : public TimeStepper {
 
   std::vector<Vec3> force_, torque_;
   std::vector<Vec3> velocity_, angular_velocity_;      ///< of all bodies: free, then with impulses
-  std::vector<Vec3> gyroscopic_;                       ///< change by gyroscopic torque, world; empty when off
   std::vector<Vec3> surface_velocity_, surface_spin_;  ///< free, with surface motions; empty when no body has one
   std::vector<double> gamma_;
   std::vector<Twist> w_;
+  std::vector<Twist> joined_;            ///< velocities of the bodies of joints, in the machine's order
+  PoseAfter motion_;                     ///< pose_after() for the machine, of this step
+  std::span<const double> joint_guess_;  ///< the machine's, of this step [N s]
 
   std::vector<Vec3> impulse_, before_, after_;  ///< per contact, as found
   std::vector<Vec3> angular_impulse_;           ///< the same; empty when nothing resists rolling

@@ -23,8 +23,9 @@ std::uint32_t spread(std::uint32_t x) {
 
 }  // namespace
 
-void SpatialOrder::build(const BodyView& bodies, std::span<const Contact> contacts) {
+void SpatialOrder::build(const BodyView& bodies, std::span<const Contact> contacts, std::span<const BodyIndex> joined) {
   number_.assign(bodies.size(), kNotInProblem);
+  for (const BodyIndex i : joined) number_[i] = kTouched;
   for (const Contact& c : contacts) {
     number_[c.a] = kTouched;
     number_[c.b] = kTouched;

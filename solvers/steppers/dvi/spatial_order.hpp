@@ -19,9 +19,9 @@ inline constexpr std::uint32_t kNotInProblem = std::numeric_limits<std::uint32_t
 /// The bodies of a step's problem. Keeps its memory between steps.
 class SpatialOrder {
  public:
-  /// Numbers the bodies that `contacts` mention: dynamic ones along the curve,
-  /// then the others by index.
-  void build(const BodyView& bodies, std::span<const Contact> contacts);
+  /// Numbers the bodies that `contacts` mention, and `joined`: dynamic ones along
+  /// the curve, then the others by index.
+  void build(const BodyView& bodies, std::span<const Contact> contacts, std::span<const BodyIndex> joined = {});
 
   /// Body of the scene by number.
   [[nodiscard]] std::span<const BodyIndex> bodies() const { return bodies_; }

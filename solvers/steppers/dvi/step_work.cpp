@@ -12,13 +12,12 @@ constexpr std::size_t kGrain = 2048;
 /// One step's velocities, body by body.
 class Velocities {
  public:
-  Velocities(const FreeMotion& motion, const StepAnswer& answer) : motion_{motion}, gyroscopic_{answer.gyroscopic} {}
+  explicit Velocities(const FreeMotion& motion) : motion_{motion} {}
 
   /// v0; of a body that forces do not move, what it is told.
   [[nodiscard]] Twist begin(BodyIndex i) const {
     if (motion_.bodies.motion[i] != Motion::dynamic) return free(i);
-    const Vec3 turn = motion_.bodies.angular_velocity[i];
-    return {motion_.bodies.velocity[i], gyroscopic_.empty() ? turn : turn + gyroscopic_[i]};
+    return {motion_.bodies.velocity[i], motion_.bodies.angular_velocity[i]};
   }
   [[nodiscard]] Twist free(BodyIndex i) const { return {motion_.velocity[i], motion_.angular_velocity[i]}; }
   /// The same of a body that forces do not move; zero of others.
@@ -39,7 +38,6 @@ class Velocities {
 
  private:
   const FreeMotion& motion_;
-  std::span<const Vec3> gyroscopic_;
 };
 
 Twist mean(const Twist& a, const Twist& b) { return {0.5 * (a.linear + b.linear), 0.5 * (a.angular + b.angular)}; }
@@ -82,7 +80,7 @@ StepWork sum(std::size_t count, const Executor& executor, std::vector<StepWork>&
 
 StepWork step_work(const FreeMotion& motion, const ContactAssembly& assembly, const StepAnswer& answer,
                    const Executor& executor, std::vector<StepWork>& partial) {
-  const Velocities v{motion, answer};
+  const Velocities v{motion};
   StepWork total = sum(motion.velocity.size(), executor, partial, [&](std::size_t i, StepWork& out) {
     const auto body = static_cast<BodyIndex>(i);
     out.force_work += v.force_work(body, mean(v.begin(body), v.free(body)));

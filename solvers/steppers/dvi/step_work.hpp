@@ -1,7 +1,6 @@
 // What a step does to the energy of the bodies.
 //
-// Glossary: v0, velocities at the beginning of the step, after the gyroscopic
-// change, which keeps the energy; v_f = v0 + h M^-1 f; w = M^-1 D gamma; v1 = v_f +
+// Glossary: v0, velocities at the beginning of the step; v_f = v0 + h M^-1 f; w = M^-1 D gamma; v1 = v_f +
 // w; u = D^T v, as contact_assembly.hpp has it.
 //
 //     T1 - T0 = (v1 - v0) . M (v0 + v1) / 2 = h f . (v0 + v1) / 2 + gamma . D^T (v0 + v1) / 2
@@ -21,7 +20,6 @@ namespace scree::dvi {
 
 /// Answer of a step, in terms of the bodies and contacts of `assembly`.
 struct StepAnswer {
-  std::span<const Vec3> gyroscopic;       ///< change of the angular velocity, world [rad/s]; empty for none
   std::span<const Twist> w;               ///< per body of the problem [m/s], [rad/s]
   std::span<const Vec3> impulse;          ///< per contact [N s], its frame
   std::span<const Vec3> angular_impulse;  ///< per contact [N m s], its frame; empty for none
