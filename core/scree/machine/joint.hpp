@@ -42,13 +42,13 @@ struct SpringLaw {
   [[nodiscard]] bool acts() const { return stiffness > 0.0 || damping > 0.0; }
 };
 
-/// What acts along one coordinate of a joint. Units: m, N of a translation; rad, N m of a rotation.
+/// What acts along one coordinate of a joint.
 struct CoordinateLaw {
   SpringLaw spring;
-  double rest = 0.0;     ///< where the spring is slack
-  double preload = 0.0;  ///< force at rest, towards growing coordinates; needs a spring
-  double lower = -std::numeric_limits<double>::infinity();  ///< stop
-  double upper = std::numeric_limits<double>::infinity();   ///< stop, >= lower
+  double rest = 0.0;     ///< where the spring is slack [m], [rad]
+  double preload = 0.0;  ///< force at rest, towards growing coordinates; needs a spring [N], [N m]
+  double lower = -std::numeric_limits<double>::infinity();  ///< stop [m], [rad]
+  double upper = std::numeric_limits<double>::infinity();   ///< stop, >= lower [m], [rad]
   double stop_restitution = 0.0;                            ///< of the stops [1]
 };
 

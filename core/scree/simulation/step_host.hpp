@@ -23,7 +23,12 @@ class StepHost final : public StepServices {
  public:
   StepHost(const Parts& parts, CollisionPipeline& pipeline, Machine& machine, const Materials& materials,
            const Executor& executor, PhaseTimer& timer)
-      : parts_{parts}, pipeline_{pipeline}, machine_{machine}, materials_{materials}, executor_{executor}, timer_{timer} {}
+      : parts_{parts},
+        pipeline_{pipeline},
+        machine_{machine},
+        materials_{materials},
+        executor_{executor},
+        timer_{timer} {}
 
   /// Has the first contacts of a step looked at by `births`; `known` are the bodies of the scene. Both outlive the host.
   void watch_births(BirthCheck& births, std::span<const SceneBody> known) {

@@ -13,16 +13,16 @@ void check_solver(const Parts& parts) {
 }
 
 void check_narrow_phase(const Parts& parts, const CollisionPipeline& pipeline, const BodyView& bodies) {
-  static const std::string kMissing = "but the scene has no [[narrow_phase]]; add one with `type`";
+  const std::string missing = "but the scene has no [[narrow_phase]]; add one with `type`";
   if (!parts.narrow.empty()) return pipeline.check_support(bodies);
   // What sources add is not known before they do.
   if (parts.stepper.plugin->needs_ccp_solver() && !parts.sources.empty()) {
-    throw parts.sources[0].options.error(parts.sources[0].info.label() + " adds bodies that may touch, " + kMissing);
+    throw parts.sources[0].options.error(parts.sources[0].info.label() + " adds bodies that may touch, " + missing);
   }
   try {
     pipeline.check_support(bodies);
   } catch (const Error&) {
-    throw parts.stepper.options.error("bodies of the scene may touch, " + kMissing);
+    throw parts.stepper.options.error("bodies of the scene may touch, " + missing);
   }
 }
 

@@ -50,8 +50,7 @@ struct JointedWorld : World {
 
 /// A motor with a constant value.
 [[nodiscard]] inline Motor motor(std::uint32_t joint, Coordinate along, Drive drive, double value) {
-  return {
-      .name = "motor", .joint = joint, .coordinate = along, .drive = drive, .value = TimeFunction{value}};
+  return {.name = "motor", .joint = joint, .coordinate = along, .drive = drive, .value = TimeFunction{value}};
 }
 
 }  // namespace scree::test
