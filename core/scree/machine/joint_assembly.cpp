@@ -24,14 +24,24 @@ BodyInertia inertia_of(const NewBody& body) {
   return {1.0 / body.mass, r * Mat3::diagonal({1.0 / j.x, 1.0 / j.y, 1.0 / j.z}) * transpose(r)};
 }
 
+bool is_imposed(const Motor& motor) { return motor.drive != Drive::effort && !std::isfinite(motor.limit); }
+
+bool imposes_position(const MachineDescription& machine, const RowGroup& group) {
+  if (group.role != RowRole::motor) return false;
+  const Motor& motor = machine.motors[group.owner];
+  return motor.drive == Drive::position && is_imposed(motor);
+}
+
 /// The equations of all joints at the bodies' present poses.
 class Equations {
  public:
-  Equations(const MachineDescription& machine, std::span<const NewBody> bodies) : machine_{machine} {
+  Equations(const MachineDescription& machine, std::span<const NewBody> bodies, bool with_motors) : machine_{machine} {
     for (const RowGroup& group : row_groups(machine)) {
-      if (group.role == RowRole::equation) groups_.push_back(group);
+      if (group.role == RowRole::equation || (with_motors && imposes_position(machine, group)))
+        groups_.push_back(group);
     }
     states_.resize(machine.joints.size());
+    for (std::uint32_t j = 0; j < states_.size(); ++j) states_[j].angle = starting_angle(machine, j);
     for (const Joint& tie : machine.joints) {
       double length = std::numeric_limits<double>::infinity();
       for (const JointEnd* end : {&tie.a, &tie.b}) {
@@ -53,13 +63,14 @@ class Equations {
     for (const Joint& j : machine_.joints) placed_.emplace_back(j, pose(j.a.body), pose(j.b.body));
     const MachinePlacement at{placed_, states_, 0.0};
     for (const RowGroup& group : groups_) {
-      const Joint& j = machine_.joints[group.owner];
+      const std::uint32_t owner = joint_of(machine_, group);
+      const Joint& j = machine_.joints[owner];
       const auto number = [](BodyId id) { return id == kWorld ? -1 : static_cast<int>(id); };
       for (std::size_t k = 0; k < group.rows; ++k) {
-        const double length = length_[group.owner];
+        const double length = length_[owner];
         value.push_back(row_value(machine_, group, k, at, length));
         rows.push_back({number(j.a.body), number(j.b.body), row_jacobian(machine_, group, k, at, length)});
-        joint.push_back(group.owner);
+        joint.push_back(owner);
       }
     }
   }
@@ -75,6 +86,12 @@ class Equations {
     return dot(rotate(placed_[j].a.orientation, z), rotate(placed_[j].b.orientation, z)) < 0.0;
   }
   [[nodiscard]] double size() const { return size_; }
+  /// Of the coordinate that a motor drives.
+  [[nodiscard]] MachineRow row_of(const Motor& motor) const {
+    const Joint& j = machine_.joints[motor.joint];
+    const auto number = [](BodyId id) { return id == kWorld ? -1 : static_cast<int>(id); };
+    return {number(j.a.body), number(j.b.body), coordinate_row(*j.type, motor.coordinate, placed_[motor.joint])};
+  }
 
   std::vector<MachineRow> rows;
   std::vector<double> value;         ///< [m]
@@ -112,12 +129,14 @@ void move_bodies(const Equations& equations, std::span<const double> impulse, st
   }
 }
 
-/// Rows that follow from others: columns that a QR factorisation of M^-1/2 D cannot use.
-void find_redundant(const Equations& equations, std::span<const BodyInertia> inertia, AssemblyReport& report) {
+using SparseColumns = Eigen::SparseMatrix<double>;
+using RankRevealing = Eigen::SparseQR<SparseColumns, Eigen::COLAMDOrdering<int>>;
+
+/// Columns M^-1/2 D of rows, each of length one, factorised so that those that follow from others come last.
+void factorise(std::span<const MachineRow> rows, std::span<const BodyInertia> inertia, RankRevealing& qr) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < equations.rows.size(); ++i) {
-    const MachineRow& row = equations.rows[i];
-    for (const auto& [body, part] : {std::pair{row.a, row.row.a}, std::pair{row.b, row.row.b}}) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const auto& [body, part] : {std::pair{rows[i].a, rows[i].row.a}, std::pair{rows[i].b, rows[i].row.b}}) {
       if (body < 0 || inertia[static_cast<std::size_t>(body)].inverse_mass == 0.0) continue;
       const double heavy = std::sqrt(inertia[static_cast<std::size_t>(body)].inverse_mass);
       for (int axis = 0; axis < 3; ++axis) {
@@ -127,22 +146,44 @@ void find_redundant(const Equations& equations, std::span<const BodyInertia> ine
       }
     }
   }
-  Eigen::SparseMatrix<double> d(static_cast<Eigen::Index>(6 * inertia.size()),
-                                static_cast<Eigen::Index>(equations.rows.size()));
+  SparseColumns d(static_cast<Eigen::Index>(6 * inertia.size()), static_cast<Eigen::Index>(rows.size()));
   d.setFromTriplets(entries.begin(), entries.end());
-  // Columns of one size, so that one threshold judges all.
   for (Eigen::Index i = 0; i < d.cols(); ++i) {
     const double size = d.col(i).norm();
     if (size > 0.0) d.col(i) *= 1.0 / size;
   }
   d.makeCompressed();
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
   qr.setPivotThreshold(1e-7);
   qr.compute(d);
-  report.redundant_equations = static_cast<std::size_t>(d.cols() - qr.rank());
-  for (Eigen::Index k = qr.rank(); k < d.cols(); ++k) {
+}
+
+void find_redundant(const Equations& equations, std::span<const BodyInertia> inertia, AssemblyReport& report) {
+  RankRevealing qr;
+  factorise(equations.rows, inertia, qr);
+  report.redundant_equations = static_cast<std::size_t>(qr.cols() - qr.rank());
+  for (Eigen::Index k = qr.rank(); k < qr.cols(); ++k) {
     const std::uint32_t joint = equations.joint[static_cast<std::size_t>(qr.colsPermutation().indices()[k])];
     if (std::ranges::find(report.redundant, joint) == report.redundant.end()) report.redundant.push_back(joint);
+  }
+}
+
+/// The first motor without a limit whose row follows from equations and earlier motors.
+void find_contradiction(const MachineDescription& machine, const Equations& equations,
+                        std::span<const BodyInertia> inertia, AssemblyReport& report) {
+  std::vector<MachineRow> rows = equations.rows;
+  RankRevealing qr;
+  factorise(rows, inertia, qr);
+  Eigen::Index rank = qr.rank();
+  for (std::uint32_t k = 0; k < machine.motors.size(); ++k) {
+    const Motor& motor = machine.motors[k];
+    if (!is_imposed(motor)) continue;
+    rows.push_back(equations.row_of(motor));
+    factorise(rows, inertia, qr);
+    if (qr.rank() == rank) {
+      report.contradicting_motor = k;
+      return;
+    }
+    rank = qr.rank();
   }
 }
 
@@ -150,7 +191,7 @@ void find_redundant(const Equations& equations, std::span<const BodyInertia> ine
 
 AssemblyReport assemble(const MachineDescription& machine, std::span<NewBody> bodies, bool move) {
   AssemblyReport report;
-  Equations equations{machine, bodies};
+  Equations equations{machine, bodies, true};
   std::vector<Vec3> start;
   for (const NewBody& body : bodies) start.push_back(body.pose.position);
   equations.evaluate(bodies);
@@ -180,7 +221,11 @@ AssemblyReport assemble(const MachineDescription& machine, std::span<NewBody> bo
       report.moved_body = k;
     }
   }
-  find_redundant(equations, inertia, report);
+  Equations joints{machine, bodies, false};
+  joints.evaluate(bodies);
+  if (joints.rows.empty()) return report;
+  find_redundant(joints, inertia, report);
+  find_contradiction(machine, joints, inertia, report);
   return report;
 }
 

@@ -8,6 +8,7 @@
 // limited to half a radian.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,12 +27,13 @@ struct AssemblyReport {
   std::uint32_t worst_joint = 0;  ///< with the greatest violation, at the end or, when nothing moved, at the beginning
   double greatest_move = 0.0;     ///< of a centre of mass [m]
   std::size_t moved_body = 0;     ///< which one, by place in `bodies`
-  std::vector<std::uint32_t> flipped;    ///< joints whose axes ended up opposed
-  std::size_t redundant_equations = 0;   ///< that follow from others
-  std::vector<std::uint32_t> redundant;  ///< joints that they belong to
+  std::vector<std::uint32_t> flipped;                ///< joints whose axes ended up opposed
+  std::size_t redundant_equations = 0;               ///< that follow from others
+  std::vector<std::uint32_t> redundant;              ///< joints that they belong to
+  std::optional<std::uint32_t> contradicting_motor;  ///< without a limit, imposes what is determined already
 };
 
-/// Moves the poses of `bodies`, whose places are their ids. When `move` is false nothing moves and the errors are reported.
+/// Motors without a limit that impose a position count as equations at t = 0. Moves the poses of `bodies`, whose places are their ids. When `move` is false nothing moves and the errors are reported.
 [[nodiscard]] AssemblyReport assemble(const MachineDescription& machine, std::span<NewBody> bodies, bool move);
 
 }  // namespace scree

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace scree {
 namespace {
 
@@ -74,6 +76,17 @@ TEST(joint_assembly, bodies_share_the_way_by_their_masses) {
   EXPECT_TRUE(assemble(machine, bodies, true).together);
   EXPECT_NEAR(bodies[0].pose.position.x, 0.1, 1e-9);
   EXPECT_NEAR(bodies[1].pose.position.x, 0.1, 1e-9);
+}
+
+// A motor that imposes an angle is an equation at t = 0, counted from any number of turns.
+TEST(joint_assembly, bodies_start_where_their_motors_do) {
+  MachineDescription machine{.joints = {joint("revolute", on(kWorld, {}), on(0, {}))}};
+  machine.motors.push_back({.name = "m", .drive = Drive::position, .value = TimeFunction{5.0}});
+  std::vector<NewBody> bodies{body({})};
+  EXPECT_TRUE(assemble(machine, bodies, true).together);
+  const Vec3 x = rotate(bodies[0].pose.orientation, {1, 0, 0});
+  EXPECT_NEAR(x.x, std::cos(5.0), 1e-10);
+  EXPECT_NEAR(x.y, std::sin(5.0), 1e-10);
 }
 
 TEST(joint_assembly, repeated_equations_are_counted_and_named) {

@@ -75,6 +75,7 @@ Machine::Machine(MachineDescription description)
 Machine::~Machine() = default;
 
 void Machine::locate(const BodyView& bodies) {
+  news_.clear();
   bodies_.clear();
   std::vector<int>& numbers = numbers_;
   numbers.clear();
@@ -92,6 +93,7 @@ void Machine::locate(const BodyView& bodies) {
     };
     ends_[j] = {number(joint.a.body), number(joint.b.body)};
     if (ends_[j][0] == kGone || ends_[j][1] == kGone) {
+      if (!states_[j].gone) news_.push_back("joint '" + joint.name + "' is gone: one of its bodies has left the scene");
       states_[j].gone = true;
       ends_[j] = {-1, -1};
     }
@@ -104,7 +106,10 @@ void Machine::start(const BodyView& bodies) {
   for (std::size_t j = 0; j < states_.size(); ++j) {
     const JointType& type = *description_.joints[j].type;
     JointState& state = states_[j];
-    if (type.turns) state.angle = state.start[0] = coordinate_value(type, Coordinate::rotation, placed_[j]);
+    if (type.turns) {
+      const double angle = coordinate_value(type, Coordinate::rotation, placed_[j]);
+      state.angle = state.start[0] = nearest_turn(angle, starting_angle(description_, static_cast<std::uint32_t>(j)));
+    }
     if (type.has(Coordinate::translation)) {
       state.start[1] = coordinate_value(type, Coordinate::translation, placed_[j]);
     }

@@ -47,13 +47,14 @@ struct MachineProblem {
 
 /// A joint, motor or coupling over the last step.
 struct MachineReport {
-  Vec3 force;                     ///< of a joint's equations and stops on b [N], world
+  Vec3 force;                     ///< of a joint's equations, springs and stops on b [N], world
   Vec3 torque;                    ///< the same about the origin of its frame on b [N m], world
   double rotation = 0.0;          ///< coordinate [rad]
   double translation = 0.0;       ///< coordinate [m]
   double rotation_rate = 0.0;     ///< [rad/s]
   double translation_rate = 0.0;  ///< [m/s]
-  double effort = 0.0;            ///< of a motor, or of a joint's springs along translation, else rotation [N], [N m]
+  double effort_torque = 0.0;     ///< of a motor, or of a joint's spring of the rotation [N m]
+  double effort_force = 0.0;      ///< of a motor, or of a joint's spring of the translation [N]
   double power = 0.0;             ///< given to the bodies, mean over the step [W]
   double energy = 0.0;            ///< given to the bodies so far [J]
   double position_error = 0.0;    ///< greatest violation of an equation [m]; angles times the joint's length
@@ -69,7 +70,7 @@ class Machine {
   [[nodiscard]] bool empty() const { return groups_.empty(); }
   [[nodiscard]] const MachineDescription& description() const { return description_; }
 
-  /// Finds the bodies; joints of bodies that have left are gone.
+  /// Finds the bodies; joints of bodies that have left are gone. The first call of a step.
   void locate(const BodyView& bodies);
   /// The bodies of all joints, by number in the machine.
   [[nodiscard]] std::span<const BodyIndex> bodies() const { return bodies_; }
@@ -92,8 +93,10 @@ class Machine {
   [[nodiscard]] double motor_energy() const;
   /// Work of all joints, springs and motors on the bodies that forces move, in the last step [J].
   [[nodiscard]] double work() const { return work_; }
-  /// Sentences about joints that broke in the last step.
+  /// Sentences about joints that broke, or whose bodies left, in the last step.
   [[nodiscard]] std::span<const std::string> news() const { return news_; }
+  /// True of a joint that broke, or one of whose bodies has left.
+  [[nodiscard]] bool is_gone(std::uint32_t joint) const { return states_[joint].gone; }
   /// Length L by which rows of angles of a joint are multiplied [m].
   [[nodiscard]] double length(std::uint32_t joint) const { return length_[joint]; }
 
@@ -129,10 +132,13 @@ class Machine {
   [[nodiscard]] bool is_gone(const RowGroup& group) const;
   [[nodiscard]] MachineReport& report_of(const RowGroup& group);
 
+  void hold(std::span<double> impulse, std::span<Twist> velocity, const PoseAfter& after);
+  [[nodiscard]] bool let_go_of_overloaded(std::span<const double> impulse);
   void gather_held(std::span<const double> impulse);
   [[nodiscard]] double find_defects(std::span<const double> impulse, std::span<const Twist> velocity,
                                     const BodyView& bodies, const PoseAfter& after);
   void apply_correction(std::span<double> impulse, std::span<Twist> velocity);
+  void push(const MachineRow& row, double impulse, std::span<Twist> velocity) const;
   void account(std::span<const double> impulse, std::span<const Twist> velocity);
   void note_coordinates(std::span<const Twist> velocity);
   void break_overloaded();
@@ -165,6 +171,8 @@ class Machine {
   std::vector<std::uint32_t> held_;  // rows that settle() makes hold
   std::vector<MachineRow> held_rows_;
   std::vector<double> held_compliance_, defect_, correction_;
+  std::vector<double> solved_impulse_;  // the solver's
+  std::vector<Twist> solved_velocity_;
   std::vector<MachineReport> reports_;
   std::vector<std::string> news_;
 };

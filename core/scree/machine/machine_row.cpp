@@ -16,6 +16,14 @@ std::uint8_t stops_of(const CoordinateLaw& law) {
 
 }  // namespace
 
+double starting_angle(const MachineDescription& machine, std::uint32_t joint) {
+  for (const Motor& motor : machine.motors) {
+    const bool imposes = motor.drive == Drive::position && motor.coordinate == Coordinate::rotation;
+    if (motor.joint == joint && imposes) return motor.value.value(0.0);
+  }
+  return 0.0;
+}
+
 std::vector<RowGroup> row_groups(const MachineDescription& machine) {
   std::vector<RowGroup> groups;
   std::uint32_t slot = 0;

@@ -44,6 +44,9 @@ struct MachineRow {
   CcpRow row;
 };
 
+/// The angle at t = 0 that a motor imposes on a joint [rad]; zero where none does.
+[[nodiscard]] double starting_angle(const MachineDescription& machine, std::uint32_t joint);
+
 /// All rows that a machine may have, joint by joint, then motors, then couplings.
 [[nodiscard]] std::vector<RowGroup> row_groups(const MachineDescription& machine);
 

@@ -27,25 +27,53 @@ double rounding(std::span<const JointPlacement> joints) {
 }  // namespace
 
 void Machine::settle(std::span<double> impulse, std::span<Twist> velocity, const PoseAfter& after) {
-  news_.clear();
-  gather_held(impulse);
-  if (!held_.empty() && projection_.bind(held_rows_, held_compliance_, inertia_)) {
-    const double enough = std::max(kExact, rounding(placed_) / dt_);
-    double worst = find_defects(impulse, velocity, view_, after);
-    for (int round = 0; round < kMostRounds && worst > enough && std::isfinite(worst); ++round) {
-      projection_.solve(defect_, correction_);
-      apply_correction(impulse, velocity);
-      const double now = find_defects(impulse, velocity, view_, after);
-      // Equations that contradict each other never vanish together: their least error stands.
-      if (now > 0.9 * worst) break;
-      worst = now;
-    }
+  solved_impulse_.assign(impulse.begin(), impulse.end());
+  solved_velocity_.assign(velocity.begin(), velocity.end());
+  hold(impulse, velocity, after);
+  // A motor that would have to exceed its limit gives just that.
+  while (let_go_of_overloaded(impulse)) {
+    std::ranges::copy(solved_impulse_, impulse.begin());
+    std::ranges::copy(solved_velocity_, velocity.begin());
+    hold(impulse, velocity, after);
   }
   place(view_, velocity, &after, after_);
   account(impulse, velocity);
   note_coordinates(velocity);
   break_overloaded();
   last_dt_ = dt_;
+}
+
+void Machine::hold(std::span<double> impulse, std::span<Twist> velocity, const PoseAfter& after) {
+  gather_held(impulse);
+  if (held_.empty() || !projection_.bind(held_rows_, held_compliance_, inertia_)) return;
+  const double enough = std::max(kExact, rounding(placed_) / dt_);
+  double worst = find_defects(impulse, velocity, view_, after);
+  for (int round = 0; round < kMostRounds && worst > enough && std::isfinite(worst); ++round) {
+    projection_.solve(defect_, correction_);
+    apply_correction(impulse, velocity);
+    const double now = find_defects(impulse, velocity, view_, after);
+    // Equations that contradict each other never vanish together: their least error stands.
+    if (now > 0.9 * worst) break;
+    worst = now;
+  }
+}
+
+// Rows of motors beyond their limits are put there and are exact no longer; true when there was one.
+bool Machine::let_go_of_overloaded(std::span<const double> impulse) {
+  bool found = false;
+  for (const CcpBlock& block : blocks_) {
+    if (block.kind != CcpKind::box) continue;
+    StepRow& row = step_rows_[block.first_row];
+    const double g = impulse[block.first_row];
+    if (!row.exact || (g >= block.lower && g <= block.upper)) continue;
+    row.exact = false;
+    found = true;
+    double& solved = solved_impulse_[block.first_row];
+    const double limit = g < block.lower ? block.lower : block.upper;
+    push(row.at, limit - solved, solved_velocity_);
+    solved = limit;
+  }
+  return found;
 }
 
 void Machine::gather_held(std::span<const double> impulse) {
@@ -82,15 +110,16 @@ double Machine::find_defects(std::span<const double> impulse, std::span<const Tw
 void Machine::apply_correction(std::span<double> impulse, std::span<Twist> velocity) {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     impulse[held_[k]] += correction_[k];
-    const MachineRow& row = held_rows_[k];
-    if (row.a >= 0) {
-      const auto a = static_cast<std::size_t>(row.a);
-      velocity[a] += velocity_change(inertia_[a], row.row.a, correction_[k]);
-    }
-    if (row.b >= 0) {
-      const auto b = static_cast<std::size_t>(row.b);
-      velocity[b] += velocity_change(inertia_[b], row.row.b, correction_[k]);
-    }
+    push(held_rows_[k], correction_[k], velocity);
+  }
+}
+
+// What an impulse of a row [N s] changes of the velocities.
+void Machine::push(const MachineRow& row, double impulse, std::span<Twist> velocity) const {
+  for (const auto& [body, part] : {std::pair{row.a, row.row.a}, std::pair{row.b, row.row.b}}) {
+    if (body < 0) continue;
+    const auto k = static_cast<std::size_t>(body);
+    velocity[k] += velocity_change(inertia_[k], part, impulse);
   }
 }
 
@@ -124,7 +153,8 @@ void Machine::account(std::span<const double> impulse, std::span<const Twist> ve
     report.power += work / dt_;
     energy_[static_cast<std::size_t>(&report - reports_.data())] += work;
     work_ += 0.5 * g * (rate_of_moved(row.at, before_) + rate_of_moved(row.at, velocity));
-    if (row.group.role == RowRole::equation || row.group.role == RowRole::stop) {
+    const bool of_joint = row.group.role != RowRole::motor && row.group.role != RowRole::coupling;
+    if (of_joint) {
       const Vec3 force = per_second * row.at.row.b.linear;
       const JointPlacement& at = placed_[row.group.owner];
       report.force += force;
@@ -132,9 +162,10 @@ void Machine::account(std::span<const double> impulse, std::span<const Twist> ve
       if (row.group.role == RowRole::equation && !row.linear) {
         report.position_error = std::max(report.position_error, std::abs(value(row, after_)));
       }
-    } else {
-      report.effort = per_second * row.scale;
     }
+    if (row.group.role == RowRole::equation || row.group.role == RowRole::stop) continue;
+    const bool turns = is_angular(description_, row.group, row.k);
+    (turns ? report.effort_torque : report.effort_force) = per_second * row.scale;
   }
   for (std::size_t k = 0; k < reports_.size(); ++k) reports_[k].energy = energy_[k];
 }

@@ -30,9 +30,7 @@ void JointLog::add(const Machine& machine, double time) {
   const MachineDescription& m = machine.description();
   std::size_t k = 0;
   for (const Joint& joint : m.joints) {
-    const bool slides = joint.along(Coordinate::translation).spring.acts();
-    add_row(time, joint.name, joint.type->name, machine.reports()[k++],
-            slides ? Coordinate::translation : Coordinate::rotation);
+    add_row(time, joint.name, joint.type->name, machine.reports()[k++]);
   }
   for (const Motor& motor : m.motors) {
     // A motor moves along the coordinates of its joint.
@@ -43,22 +41,20 @@ void JointLog::add(const Machine& machine, double time) {
     report.translation = joint.translation;
     report.translation_rate = joint.translation_rate;
     report.gone = joint.gone;
-    add_row(time, motor.name, "motor", report, motor.coordinate);
+    add_row(time, motor.name, "motor", report);
   }
   for (const Coupling& coupling : m.couplings) {
     MachineReport report = machine.reports()[k++];
     report.gone = machine.reports()[coupling.first].gone || machine.reports()[coupling.second].gone;
-    add_row(time, coupling.name, "coupling", report, coupling.of_second);
+    add_row(time, coupling.name, "coupling", report);
   }
 }
 
-void JointLog::add_row(double time, std::string_view name, std::string_view kind, const MachineReport& r,
-                       Coordinate of_effort) {
-  const bool turns = of_effort == Coordinate::rotation;
+void JointLog::add_row(double time, std::string_view name, std::string_view kind, const MachineReport& r) {
   table_.cell(time).cell(name).cell(kind).cell(r.rotation).cell(r.rotation_rate).cell(r.translation);
   table_.cell(r.translation_rate).cell(r.force.x).cell(r.force.y).cell(r.force.z);
   table_.cell(r.torque.x).cell(r.torque.y).cell(r.torque.z);
-  table_.cell(turns ? r.effort : 0.0).cell(turns ? 0.0 : r.effort);
+  table_.cell(r.effort_torque).cell(r.effort_force);
   table_.cell(r.power).cell(r.energy).cell(r.position_error).cell(r.gone ? "gone" : "holds");
   table_.end_row();
 }

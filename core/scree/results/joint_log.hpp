@@ -19,8 +19,7 @@ class JointLog {
   void close() { table_.close(); }
 
  private:
-  void add_row(double time, std::string_view name, std::string_view kind, const MachineReport& report,
-               Coordinate of_effort);
+  void add_row(double time, std::string_view name, std::string_view kind, const MachineReport& report);
   CsvWriter table_;
 };
 

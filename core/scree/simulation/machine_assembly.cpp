@@ -5,6 +5,7 @@
 #include "scree/collision/collision_filter.hpp"
 #include "scree/config/suggest.hpp"
 #include "scree/machine/joint_assembly.hpp"
+#include "scree/machine/machine.hpp"
 #include "scree/simulation/scene_machine.hpp"
 
 namespace scree {
@@ -21,8 +22,36 @@ const Options& options_of(const SceneModel& model, std::uint32_t j) { return mod
 
 std::string names_of(const SceneModel& model, const std::vector<std::uint32_t>& joints) {
   std::vector<std::string> names;
-  for (const std::uint32_t j : joints) names.push_back("'" + model.machine.joints[j].name + "'");
+  for (const std::uint32_t j : joints) names.push_back(model.machine.joints[j].name);
   return list_of(names);
+}
+
+/// True of a joint whose two bodies do not touch each other.
+bool keeps_apart(const SceneModel& model, std::uint32_t j) {
+  const Joint& joint = model.machine.joints[j];
+  return joint.a.body != kWorld && joint.b.body != kWorld && !options_of(model, j).boolean("collide");
+}
+
+/// Refuses joints that start outside their stops.
+void check_stops(const SceneModel& model) {
+  const auto pose = [&](BodyId id) { return id == kWorld ? Pose{} : model.bodies[id].body.pose; };
+  for (std::uint32_t j = 0; j < model.machine.joints.size(); ++j) {
+    const Joint& joint = model.machine.joints[j];
+    const JointPlacement at{joint, pose(joint.a.body), pose(joint.b.body)};
+    for (const Coordinate c : {Coordinate::rotation, Coordinate::translation}) {
+      if (!joint.type->has(c)) continue;
+      const bool turns = c == Coordinate::rotation;
+      const CoordinateLaw& law = joint.along(c);
+      const double value = coordinate_value(*joint.type, c, at);
+      const double x = turns ? nearest_turn(value, starting_angle(model.machine, j)) : value;
+      if (x >= law.lower - 1e-9 && x <= law.upper + 1e-9) continue;
+      char text[160];
+      std::snprintf(text, sizeof text, "joint '%.60s' starts at %.4g %s, outside its stops from %.4g to %.4g",
+                    joint.name.c_str(), x, turns ? "rad" : "m", law.lower, law.upper);
+      throw options_of(model, j).error(turns ? "rotation" : "translation",
+                                       std::string{text} + "; turn or move its bodies, or the stops");
+    }
+  }
 }
 
 }  // namespace
@@ -55,6 +84,13 @@ void assemble_machine(SceneModel& model, std::vector<std::string>& log) {
                   ", the greatest move " + in_metres(report.greatest_move) +
                   (name.empty() ? std::string{} : ", of '" + name + "'"));
   }
+  check_stops(model);
+  if (report.contradicting_motor) {
+    const Motor& motor = model.machine.motors[*report.contradicting_motor];
+    throw options_of(model, static_cast<std::uint32_t>(model.machine.joints.size() + *report.contradicting_motor))
+        .error("motor '" + motor.name +
+               "' imposes what other joints and motors determine already; give one of them a limit, or take it away");
+  }
   if (report.redundant_equations > 0) {
     log.push_back("joints repeat each other: " + std::to_string(report.redundant_equations) + " equations, of " +
                   names_of(model, report.redundant) +
@@ -64,9 +100,16 @@ void assemble_machine(SceneModel& model, std::vector<std::string>& log) {
 
 void exclude_joined(const SceneModel& model, CollisionFilter& filter) {
   for (std::uint32_t j = 0; j < model.machine.joints.size(); ++j) {
-    const Joint& joint = model.machine.joints[j];
-    if (joint.a.body == kWorld || joint.b.body == kWorld || options_of(model, j).boolean("collide")) continue;
-    filter.exclude(joint.a.body, joint.b.body);
+    if (keeps_apart(model, j)) filter.exclude(model.machine.joints[j].a.body, model.machine.joints[j].b.body);
+  }
+}
+
+void admit_parted(const SceneModel& model, const Machine& machine, std::vector<char>& known, CollisionFilter& filter) {
+  known.resize(model.machine.joints.size(), 0);
+  for (std::uint32_t j = 0; j < known.size(); ++j) {
+    if (known[j] != 0 || !machine.is_gone(j)) continue;
+    known[j] = 1;
+    if (keeps_apart(model, j)) filter.admit(model.machine.joints[j].a.body, model.machine.joints[j].b.body);
   }
 }
 

@@ -69,7 +69,11 @@ std::vector<std::string> MachineReader::body_names() const {
 }
 
 WrittenEnd MachineReader::end_of(const Options& o, const std::string& written) const {
-  if (written == "world") return {};
+  if (written == "world") {
+    const auto same = std::ranges::find(model_.bodies, "world", &SceneBody::name);
+    if (same == model_.bodies.end()) return {};
+    throw o.error("between", "names 'world', but a body has that name; give the body another one");
+  }
   for (BodyId id = 0; id < model_.bodies.size(); ++id) {
     const SceneBody& b = body(id);
     if (b.name.empty()) continue;
@@ -262,6 +266,12 @@ void MachineReader::read_motor(const Options& o) {
                                    "; give `" + limit + "`");
   }
   if (o.has(limit)) motor.limit = o.number(limit);
+  const CoordinateLaw& law = joint.along(motor.coordinate);
+  const bool has_stops = std::isfinite(law.lower) || std::isfinite(law.upper);
+  if (has_stops && !std::isfinite(motor.limit) && motor.drive != Drive::effort) {
+    throw o.error(chosen->key, "imposes a motion on joint " + in_quotes(joint.name) +
+                                   ", which has stops, and would break through them; give the motor a `" + limit + "`");
+  }
   motor.value = read_time_function(o, chosen->key, chosen->unit);
   model_.machine.motors.push_back(std::move(motor));
 }

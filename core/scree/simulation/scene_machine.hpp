@@ -10,6 +10,7 @@
 namespace scree {
 
 class CollisionFilter;
+class Machine;
 class SceneTable;
 
 /// The sections [[joint]], [[motor]] and [[coupling]], as data.
@@ -27,5 +28,8 @@ void assemble_machine(SceneModel& model, std::vector<std::string>& log);
 
 /// Bodies that a joint ties do not touch each other, unless it says so.
 void exclude_joined(const SceneModel& model, CollisionFilter& filter);
+
+/// The same for joints that are gone: their bodies meet again. `known` says which were told of, by joint.
+void admit_parted(const SceneModel& model, const Machine& machine, std::vector<char>& known, CollisionFilter& filter);
 
 }  // namespace scree

@@ -82,6 +82,18 @@ TEST(scene_machine, motors_drive_what_exists_once) {
                  "whose rotation motor 'one' drives already; two would contradict each other");
 }
 
+// Through two joints of one axis as well as through one, and against stops.
+TEST(scene_machine, motors_that_contradict_the_machine_are_refused) {
+  const std::string second =
+      "[[joint]]\nname = 'axle2'\ntype = 'revolute'\nbetween = ['world', 'crank']\nposition = [5.0, 0.0, 2.0]\n";
+  const std::string two = "[[motor]]\nname = 'two'\njoint = 'axle2'\nangular_speed = 2.0\n";
+  expect_refusal(axle() + second + motor("one", "angular_speed = 1.0\n") + two,
+                 "motor 'two' imposes what other joints and motors determine already");
+  expect_refusal(axle("rotation = { upper = 1.0 }\n") + motor("m", "angular_speed = 1.0\n"),
+                 "has stops, and would break through them; give the motor a `torque_limit`");
+  expect_refusal(axle("rotation = { lower = 1.0, upper = 2.0 }\n"), "starts at 0 rad, outside its stops from 1 to 2");
+}
+
 TEST(scene_machine, couplings_name_two_coordinates) {
   const auto coupling = [](const std::string& more) { return "[[coupling]]\nname = 'gears'\n" + more; };
   expect_refusal(axle() + coupling("joints = ['axle', 'x']\nratio = 2.0\n"), "no joint of the scene");

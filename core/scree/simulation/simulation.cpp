@@ -7,6 +7,7 @@
 
 #include "scree/base/release.hpp"
 #include "scree/model/kinetic_energy.hpp"
+#include "scree/simulation/scene_machine.hpp"
 #include "scree/simulation/simulation_state.hpp"
 
 namespace scree {
@@ -147,6 +148,7 @@ StepSummary Simulation::State::take_step() {
     check_motion();
     host->tap_next({});
     advance_fields(end);
+    admit_parted(model, *machine, parted, pipeline->filter());
     log.insert(log.end(), machine->news().begin(), machine->news().end());
     observe();
     remove_bodies(end);
@@ -256,9 +258,10 @@ ReportTable motor_table(const Machine& machine) {
   const MachineDescription& m = machine.description();
   for (std::size_t k = 0; k < m.motors.size(); ++k) {
     const MachineReport& report = machine.reports()[m.joints.size() + k];
-    const char* unit = m.motors[k].coordinate == Coordinate::rotation ? " N m" : " N";
-    table.rows.push_back({m.motors[k].name, three_digits(report.effort) + unit, three_digits(report.power),
-                          three_digits(report.energy)});
+    const bool turns = m.motors[k].coordinate == Coordinate::rotation;
+    const std::string effort =
+        turns ? three_digits(report.effort_torque) + " N m" : three_digits(report.effort_force) + " N";
+    table.rows.push_back({m.motors[k].name, effort, three_digits(report.power), three_digits(report.energy)});
   }
   return table;
 }

@@ -6,6 +6,7 @@
 #include "scree/ccp/ccp_file.hpp"
 #include "scree/config/resolved.hpp"
 #include "scree/results/run_record.hpp"
+#include "scree/simulation/scene_machine.hpp"
 #include "scree/simulation/simulation_state.hpp"
 #include "scree/state/hdf5_checkpoint.hpp"
 
@@ -217,6 +218,7 @@ void Simulation::State::restore_from(const StateReader& in) {
   model.shapes.load(*in.group("shapes"));
   bodies.load(*in.group("bodies"));
   machine->load(*in.group("machine"));
+  admit_parted(model, *machine, parted, pipeline->filter());
   parts.for_each([&](const PartInfo& info, const Options&, Plugin& plugin) {
     if (!in.has(group_name(info))) return;  // new since the checkpoint, an observer say: it starts afresh
     const auto group = in.group(group_name(info));

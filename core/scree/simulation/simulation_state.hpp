@@ -47,6 +47,7 @@ struct Simulation::State {
   std::optional<SetupServices> services;
   std::optional<CollisionPipeline> pipeline;
   std::optional<Machine> machine;
+  std::vector<char> parted;  // by joint: gone, and its bodies meet again
   PhaseTimer timer;
   BirthCheck births;
   std::optional<StepHost> host;

@@ -181,9 +181,10 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
     delassus_.bind(problem, &services.executor());
     w_.resize(problem.bodies());
     delassus_.body_velocities(gamma_, w_);
-    if (Machine* machine = services.machine(); machine != nullptr && !machine->empty()) settle_joints(*machine);
     if (problem.contacts.size() >= kManyRecords) delassus_ = {};
   }
+  // Also when all joints are gone, so that the machine says so.
+  if (Machine* machine = services.machine(); machine != nullptr && !machine->empty()) settle_joints(*machine);
   keep_results(bodies);
   remember(bodies, dt);
   summary.work =

@@ -200,7 +200,25 @@ TEST(dvi_joint, breaks_above_its_load_only) {
     EXPECT_EQ(w.machine->news().size(), strength < 1.0 ? 1u : 0u);
     w.run(99, 1e-3);
     EXPECT_NEAR(w.bodies.velocity[bob].z, strength < 1.0 ? -kG * 0.099 : 0.0, 1e-9);
+    // Told of once; what is gone carries nothing and does no work.
+    EXPECT_TRUE(w.machine->news().empty());
+    EXPECT_EQ(w.report(0).gone, strength < 1.0);
+    EXPECT_EQ(norm(w.report(0).force) > 0.0, strength > 1.0);
+    const double work = w.step(1e-3).work.joint_work;
+    EXPECT_EQ(work == 0.0, strength < 1.0) << work;
   }
+}
+
+TEST(dvi_joint, spring_breaks_above_its_load_too) {
+  JointedWorld w;
+  const BodyId bob = w.add_body(kPivot - Vec3{0, 0, 1}, {0.01, 0.01, 0.01}, 2.0);
+  Joint spring = w.joint_at("spring_damper", kWorld, bob, kPivot);
+  spring.b.frame.position = {};
+  spring.law[1] = {.spring = {100.0, 0.0}, .rest = 1.0};
+  spring.breaking_force = 1.5 * 2.0 * kG;  // twice the weight at the lowest point
+  w.join({.joints = {spring}});
+  w.run(400, 1e-3);
+  EXPECT_TRUE(w.report(0).gone);
 }
 
 }  // namespace

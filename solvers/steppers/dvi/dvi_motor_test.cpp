@@ -37,7 +37,7 @@ TEST(dvi_motor, torque_and_speed_obey_the_law_of_the_wheel) {
   w.join({.joints = {w.axle()}, .motors = {motor(0, Coordinate::rotation, Drive::effort, 0.3)}}, true);
   w.run(500, kH);
   EXPECT_NEAR(w.report(0).rotation_rate, 0.3 / 0.02 * 0.5, 1e-10);
-  EXPECT_NEAR(w.report(1).effort, 0.3, 1e-12);
+  EXPECT_NEAR(w.report(1).effort_torque, 0.3, 1e-12);
   EXPECT_NEAR(w.report(1).energy, 0.5 * 0.02 * std::pow(0.3 / 0.02 * 0.5, 2), 1e-9);
 }
 
@@ -48,11 +48,25 @@ TEST(dvi_motor, speed_comes_at_the_limit_of_the_torque) {
   w.join({.joints = {w.axle()}, .motors = {drive}}, true);
   w.run(200, kH);
   EXPECT_NEAR(w.report(0).rotation_rate, 0.5 / 0.02 * 0.2, 1e-9);
-  EXPECT_NEAR(w.report(1).effort, 0.5, 1e-9);
+  EXPECT_NEAR(w.report(1).effort_torque, 0.5, 1e-9);
   w.run(300, kH);
   EXPECT_NEAR(w.report(0).rotation_rate, 10.0, 1e-9);
-  EXPECT_NEAR(w.report(1).effort, 0.0, 1e-6);
+  EXPECT_NEAR(w.report(1).effort_torque, 0.0, 1e-6);
   EXPECT_NEAR(w.report(1).energy, 0.5 * 0.02 * 100.0, 1e-8);
+}
+
+// Whatever the solver leaves to the machine's own pass.
+TEST(dvi_motor, limit_is_never_exceeded) {
+  Wheel w{0.02};
+  Motor drive = motor(0, Coordinate::rotation, Drive::speed, 10.0);
+  drive.limit = 0.5;
+  w.join({.joints = {w.axle()}, .motors = {drive}});
+  w.host.tolerance = 1e-2;
+  for (int k = 0; k < 500; ++k) {
+    w.step(kH);
+    ASSERT_LE(std::abs(w.report(1).effort_torque), 0.5 * (1 + 1e-12));
+  }
+  EXPECT_GT(w.report(0).rotation_rate, 9.0);
 }
 
 // Law of the account: the kinetic energy changes by the work of forces and joints, whatever springs and motors do.
@@ -99,7 +113,7 @@ TEST(dvi_motor, rack_moves_by_the_radius_of_the_pinion) {
                          .ratio = 0.05}}});
   w.run(500, kH);
   EXPECT_NEAR(w.bodies.position[rack].z, kHigh + 0.05 * 4.0 * 0.5, 1e-10);
-  EXPECT_NEAR(w.report(2).effort, 3.0 * kG * 0.05, 1e-6);
+  EXPECT_NEAR(w.report(2).effort_torque, 3.0 * kG * 0.05, 1e-6);
 }
 
 // Implicit Euler of spring, damper and preload: k x + d v = -F at the end of the step.
