@@ -77,19 +77,18 @@ Machine::~Machine() = default;
 void Machine::locate(const BodyView& bodies) {
   news_.clear();
   bodies_.clear();
-  std::vector<int>& numbers = numbers_;
-  numbers.clear();
+  numbers_.clear();
   for (const BodyId id : ids_) {
     const auto at = std::ranges::lower_bound(bodies.id, id);
     const bool there = at != bodies.id.end() && *at == id;
-    numbers.push_back(there ? static_cast<int>(bodies_.size()) : kGone);
+    numbers_.push_back(there ? static_cast<int>(bodies_.size()) : kGone);
     if (there) bodies_.push_back(static_cast<BodyIndex>(at - bodies.id.begin()));
   }
   ends_.resize(description_.joints.size());
   for (std::size_t j = 0; j < ends_.size(); ++j) {
     const Joint& joint = description_.joints[j];
     const auto number = [&](BodyId id) {
-      return id == kWorld ? -1 : numbers[static_cast<std::size_t>(std::ranges::lower_bound(ids_, id) - ids_.begin())];
+      return id == kWorld ? -1 : numbers_[static_cast<std::size_t>(std::ranges::lower_bound(ids_, id) - ids_.begin())];
     };
     ends_[j] = {number(joint.a.body), number(joint.b.body)};
     if (ends_[j][0] == kGone || ends_[j][1] == kGone) {

@@ -89,21 +89,27 @@ class Machine {
 
   /// Of the last step: joints, then motors, then couplings.
   [[nodiscard]] std::span<const MachineReport> reports() const { return reports_; }
-  /// Work of all motors so far [J].
-  [[nodiscard]] double motor_energy() const;
   /// Work of all joints, springs and motors on the bodies that forces move, in the last step [J].
   [[nodiscard]] double work() const { return work_; }
   /// Sentences about joints that broke, or whose bodies left, in the last step.
   [[nodiscard]] std::span<const std::string> news() const { return news_; }
   /// True of a joint that broke, or one of whose bodies has left.
   [[nodiscard]] bool is_gone(std::uint32_t joint) const { return states_[joint].gone; }
-  /// Length L by which rows of angles of a joint are multiplied [m].
-  [[nodiscard]] double length(std::uint32_t joint) const { return length_[joint]; }
+
+  /// Keeps what a step changes of the machine; undo() goes back to it, after a step that failed.
+  void keep();
+  void undo();
 
   void save(StateWriter& out) const;
   void load(const StateReader& in);
 
  private:
+  /// What decides the next step and is not in the scene.
+  struct Memory {
+    std::vector<JointState> states;
+    std::vector<double> impulse, energy;  // [N s], [J]
+    double dt = 0.0;                      // [s]
+  };
   static constexpr int kGone = -2;  // a body that has left
 
   /// A row of the current step.
@@ -153,6 +159,7 @@ class Machine {
   std::vector<double> last_impulse_;  ///< by slot, of last_dt_ [N s]
   std::vector<double> energy_;        ///< by report [J]
   double last_dt_ = 0.0;              ///< [s]
+  Memory kept_;
 
   double dt_ = 0.0, end_ = 0.0;         // of the step [s]
   double work_ = 0.0;                   // of the step [J]

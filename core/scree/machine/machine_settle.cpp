@@ -202,11 +202,18 @@ void Machine::break_overloaded() {
   }
 }
 
-double Machine::motor_energy() const {
-  const std::size_t first = description_.joints.size();
-  double sum = 0.0;
-  for (std::size_t m = 0; m < description_.motors.size(); ++m) sum += energy_[first + m];
-  return sum;
+void Machine::keep() {
+  kept_.states.assign(states_.begin(), states_.end());
+  kept_.impulse.assign(last_impulse_.begin(), last_impulse_.end());
+  kept_.energy.assign(energy_.begin(), energy_.end());
+  kept_.dt = last_dt_;
+}
+
+void Machine::undo() {
+  states_ = kept_.states;
+  last_impulse_ = kept_.impulse;
+  energy_ = kept_.energy;
+  last_dt_ = kept_.dt;
 }
 
 void Machine::save(StateWriter& out) const {

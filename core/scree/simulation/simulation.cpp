@@ -139,6 +139,7 @@ void Simulation::State::remove_bodies(double at) {
 
 StepSummary Simulation::State::take_step() {
   if (!parts.stepper.plugin->announces_motion()) backup.keep(bodies);
+  machine->keep();
   try {
     const double end = static_cast<double>(steps + 1) * time_step;
     motions.begin_step(bodies, end, time_step);
@@ -159,6 +160,7 @@ StepSummary Simulation::State::take_step() {
     return summary;
   } catch (...) {
     backup.restore(bodies);
+    machine->undo();
     motions.undo(bodies);
     backup.forget();
     failed = true;

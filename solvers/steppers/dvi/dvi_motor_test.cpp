@@ -166,6 +166,25 @@ TEST(dvi_motor, stop_holds_what_falls_on_it_and_gives_back_its_restitution) {
   }
 }
 
+// A step that failed leaves no trace: what is saved is the state before it, and a joint that broke in it holds.
+TEST(dvi_motor, undone_step_leaves_the_machine_as_it_was) {
+  Wheel w{0.02};
+  Joint axle = w.axle();
+  axle.breaking_force = 1.0;
+  w.join({.joints = {axle}, .motors = {motor(0, Coordinate::rotation, Drive::speed, 30.0)}});
+  w.machine->keep();
+  w.step(kH);
+  ASSERT_TRUE(w.machine->is_gone(0));
+  MemoryState after, before;
+  MemoryWriter write_after{after}, write_before{before};
+  w.machine->save(write_after);
+  w.machine->undo();
+  w.machine->save(write_before);
+  EXPECT_FALSE(w.machine->is_gone(0));
+  EXPECT_NE(MemoryReader{after}.doubles("angle"), MemoryReader{before}.doubles("angle"));
+  EXPECT_EQ(MemoryReader{before}.doubles("energy"), (std::vector<double>{0.0, 0.0}));
+}
+
 // A restart in the middle goes on with the same bits.
 TEST(dvi_motor, restart_keeps_every_bit) {
   const auto make = [] {
