@@ -38,6 +38,8 @@ struct ContactView {
   std::span<const Vec3> velocity_after;        ///< the same after the solve [m/s]
   std::span<const Vec3> angular_impulse = {};  ///< what resists rolling: on b, about the point, in the contact frame:
                                                ///< spin, rolling 1, rolling 2 [N m s]; empty where nothing does
+  double age = 0.0;  ///< points, normals and gaps are those of the bodies so long before the end of the step [s]: the
+                     ///< whole step for schemes that find contacts at its beginning, else 0
 
   [[nodiscard]] std::size_t size() const { return contact.size(); }
 };

@@ -79,7 +79,7 @@ constexpr std::uint64_t boundary_layout() {
                        offsetof(Contact, normal), offsetof(Contact, gap)});
   digest.add<ContactView>({offsetof(ContactView, contact), offsetof(ContactView, impulse),
                            offsetof(ContactView, velocity_before), offsetof(ContactView, velocity_after),
-                           offsetof(ContactView, angular_impulse)});
+                           offsetof(ContactView, angular_impulse), offsetof(ContactView, age)});
   add_contact_problem(digest);
   digest.add<ColliderView>({offsetof(ColliderView, key), offsetof(ColliderView, body),
                             offsetof(ColliderView, primitive), offsetof(ColliderView, pose),

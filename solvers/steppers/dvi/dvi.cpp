@@ -47,6 +47,7 @@ std::vector<Parameter> Dvi::parameters() {
 
 StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double time, double dt) {
   if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_, angular_impulse_);
+  step_dt_ = dt;
   free_motion(services, bodies.view, time, dt);
   const std::span<const Contact> found = find_contacts(services, bodies.view, dt);
   const dvi::JoinedBodies joined = pose_joints(services.machine(), bodies.view, time, dt);
@@ -289,7 +290,9 @@ void Dvi::move(const BodyState& bodies, const Executor& executor, double dt) con
   });
 }
 
-ContactView Dvi::contacts() const { return {assembly_.contacts(), impulse_, before_, after_, angular_impulse_}; }
+ContactView Dvi::contacts() const {
+  return {assembly_.contacts(), impulse_, before_, after_, angular_impulse_, step_dt_};
+}
 
 void Dvi::save(StateWriter& out) const {
   memory_.save(out);

@@ -85,6 +85,7 @@ class Dvi final : public TimeStepper {
   std::vector<Vec3> world_impulse_, world_angular_impulse_;
   std::vector<StepWork> work_;  ///< per chunk, workspace
   ContactMemory memory_;
+  double step_dt_ = 0.0;    ///< of the last step [s]
   double memory_dt_ = 0.0;  ///< step that the remembered impulses belong to [s]
 };
 

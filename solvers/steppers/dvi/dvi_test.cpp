@@ -105,6 +105,19 @@ TEST(dvi, impulses_at_rest_carry_the_weight_of_the_column_above) {
   }
 }
 
+// Who looks at a contact finds its point on the bodies' surfaces when he puts them back by the age.
+TEST(dvi, contacts_are_of_the_bodies_at_the_beginning_of_the_step) {
+  World w;
+  const double r = 0.05, h = 1e-2;
+  const std::size_t i = w.add_sphere({0, 0, r}, r, 1000.0, {0.5, 0, 0});
+  w.step(h);
+  const ContactView view = w.dvi.contacts();
+  ASSERT_EQ(view.size(), 1u);
+  EXPECT_EQ(view.age, h);
+  const Vec3 then = w.bodies.position[i] - view.age * w.bodies.velocity[i];
+  EXPECT_NEAR(norm(view.contact[0].point - then), r, 1e-12);
+}
+
 // Four spheres, the lower three a gap apart: W/3 and 0.10595 W between them, 4/3 W under each lower one.
 TEST(dvi, four_spheres_share_the_weight_as_statics_says) {
   World w;
