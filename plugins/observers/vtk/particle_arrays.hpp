@@ -1,9 +1,9 @@
 // The arrays that describe particles in a file: every column of the bodies, and every attribute.
 #pragma once
 
-#include "poly_data.hpp"
 #include "scree/model/body.hpp"
 #include "scree/model/shape_set.hpp"
+#include "vtp/poly_data.hpp"
 
 namespace scree {
 

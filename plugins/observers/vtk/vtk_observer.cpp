@@ -1,28 +1,16 @@
 #include "vtk_observer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "particle_arrays.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
-#include "scree/results/output_file.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
 namespace scree {
-
-namespace {
-
-std::string file_name(const std::string& series, std::uint64_t step) {
-  return fmt::format("{}_{:08}.vtp", series, step);
-}
-
-}  // namespace
 
 VtkObserver::VtkObserver(const Options& options)
     : interval_{options.number("interval")},
@@ -67,19 +55,19 @@ void VtkObserver::finish(const Observation& last) {
 
 void VtkObserver::write_frame(const Observation& now) {
   last_step_ = now.step;
-  const std::string particles = file_name(stems_.particles, now.step);
+  const std::string particles = numbered_file(stems_.particles, now.step);
   write_particles(now, particles);
-  frames_.push_back({now.time, 0, particles});
+  frames_.add(now.time, 0, particles);
   if (walls_) {
     write_walls(now);
-    if (!wall_file_.empty()) frames_.push_back({now.time, 1, wall_file_});
+    if (!wall_file_.empty()) frames_.add(now.time, 1, wall_file_);
   }
-  write_collection(stems_.run + ".pvd", frames_);
+  frames_.write(results_ / (stems_.run + ".pvd"));
   if (!spheres_) return;
-  const std::string balls = file_name(stems_.spheres, now.step);
+  const std::string balls = numbered_file(stems_.spheres, now.step);
   write_spheres(now, balls);
-  sphere_frames_.push_back({now.time, 0, balls});
-  write_collection(stems_.spheres + ".pvd", sphere_frames_);
+  sphere_frames_.add(now.time, 0, balls);
+  sphere_frames_.write(results_ / (stems_.spheres + ".pvd"));
 }
 
 std::vector<TextArray> VtkObserver::texts() const {
@@ -136,38 +124,18 @@ void VtkObserver::write_walls(const Observation& now) {
   data.points = to_array("Points", std::span<const Vec3>{surface.points}, precision_);
   data.triangles = std::move(surface.triangles);
   data.cell_data = {to_array("id", owner), to_array("material", material)};
-  wall_file_ = file_name(stems_.walls, now.step);
+  wall_file_ = numbered_file(stems_.walls, now.step);
   write_vtp(data, results_ / wall_file_);
 }
 
-void VtkObserver::write_collection(const std::string& name, const std::vector<Frame>& frames) const {
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  for (const Frame& frame : frames) {
-    text += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", frame.time, frame.part,
-                        frame.file);
-  }
-  replace_file(results_ / name, std::string_view{text + "</Collection>\n</VTKFile>\n"});
-}
-
 void VtkObserver::save(StateWriter& out) const {
-  std::string text;
-  for (const Frame& frame : frames_) text += fmt::format("{} {} {}\n", frame.time, frame.part, frame.file);
-  for (const Frame& frame : sphere_frames_) text += fmt::format("{} {} {}\n", frame.time, 2, frame.file);
-  out.write("frames", text);
+  frames_.save(out, "frames");
+  sphere_frames_.save(out, "sphere_frames");
 }
 
 void VtkObserver::load(const StateReader& in) {
-  // A run that goes on in its old folder keeps its earlier frames; in a new folder they do not exist.
-  std::istringstream text{in.text("frames")};
-  Frame frame{};
-  while (text >> frame.time >> frame.part >> frame.file) {
-    if (!std::filesystem::exists(results_ / frame.file)) continue;
-    if (frame.part == 2) {
-      sphere_frames_.push_back({frame.time, 0, frame.file});
-    } else {
-      frames_.push_back(frame);
-    }
-  }
+  frames_.load(in, "frames", results_);
+  sphere_frames_.load(in, "sphere_frames", results_);
 }
 
 }  // namespace scree

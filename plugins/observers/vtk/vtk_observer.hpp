@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "poly_data.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/observer.hpp"
-#include "surface.hpp"
+#include "vtp/file_series.hpp"
+#include "vtp/poly_data.hpp"
+#include "vtp/surface.hpp"
 
 namespace scree {
 
@@ -26,15 +27,9 @@ class VtkObserver final : public Observer {
   void finish(const Observation& last) override;
   void save(StateWriter& out) const override;
   void load(const StateReader& in) override;
+  [[nodiscard]] int version() const override { return 2; }
 
  private:
-  /// One line of a collection.
-  struct Frame {
-    double time;  ///< [s]
-    int part;     ///< 0: particles, 1: walls
-    std::string file;
-  };
-
   /// Beginnings of the names of files.
   struct Stems {
     std::string run, particles, walls, spheres;
@@ -45,7 +40,6 @@ class VtkObserver final : public Observer {
   void write_spheres(const Observation& now, const std::string& file) const;
   void write_walls(const Observation& now);
   [[nodiscard]] bool walls_moved(const BodyView& bodies);
-  void write_collection(const std::string& name, const std::vector<Frame>& frames) const;
   [[nodiscard]] std::vector<TextArray> texts() const;
 
   double interval_;  ///< [s]
@@ -62,8 +56,8 @@ class VtkObserver final : public Observer {
   std::uint64_t last_step_ = ~std::uint64_t{0};  ///< written last
   std::vector<Pose> wall_poses_;                 ///< when they were written last
   std::string wall_file_;
-  std::vector<Frame> frames_;
-  std::vector<Frame> sphere_frames_;
+  FileSeries frames_;  ///< part 0: particles, 1: walls
+  FileSeries sphere_frames_;
 };
 
 }  // namespace scree

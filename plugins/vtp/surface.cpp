@@ -1,4 +1,4 @@
-#include "surface.hpp"
+#include "vtp/surface.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -41,14 +41,16 @@ struct TextArray {
   std::vector<std::string> texts;
 };
 
-/// Contents of a file. Without triangles every point is a vertex cell.
+/// Contents of a file: triangles, lines, or else, when `vertices` is set, a vertex cell for every point.
 struct PolyData {
   double time = 0.0;  ///< [s]
   std::size_t point_count = 0;
   DataArray points;  ///< three components [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<DataArray> point_data;  ///< one entry per point
-  std::vector<DataArray> cell_data;   ///< one entry per triangle
+  std::vector<std::array<std::uint32_t, 2>> lines;  ///< segments; not together with triangles
+  bool vertices = true;                             ///< without triangles and lines, points are cells
+  std::vector<DataArray> point_data;                ///< one entry per point
+  std::vector<DataArray> cell_data;                 ///< one entry per triangle or line
   std::vector<TextArray> texts;
 };
 

@@ -1,4 +1,4 @@
-#include "poly_data.hpp"
+#include "vtp/poly_data.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -160,23 +160,26 @@ DataArray to_array(std::string name, std::span<const std::int32_t> values) {
 }
 
 void write_vtp(const PolyData& data, const std::filesystem::path& file) {
-  const bool surface = !data.triangles.empty();
-  const std::size_t vertices = surface ? 0 : data.point_count;
+  const bool surface = !data.triangles.empty(), net = !data.lines.empty();
+  const std::size_t vertices = surface || net || !data.vertices ? 0 : data.point_count;
   Composer out;
   out.text(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n");
   add_field_data(out, data);
   out.text(
-      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
                   "NumberOfPolys=\"{}\">\n",
-                  data.point_count, vertices, data.triangles.size()));
+                  data.point_count, vertices, data.lines.size(), data.triangles.size()));
   out.arrays("PointData", data.point_data);
   out.arrays("CellData", data.cell_data);
   out.arrays("Points", {data.points});
   if (surface) {
     const std::span<const std::uint32_t> corners{data.triangles.front().data(), 3 * data.triangles.size()};
     out.arrays("Polys", cells(data.triangles.size(), 3, corners));
+  } else if (net) {
+    const std::span<const std::uint32_t> ends{data.lines.front().data(), 2 * data.lines.size()};
+    out.arrays("Lines", cells(data.lines.size(), 2, ends));
   } else {
     out.arrays("Verts", cells(vertices, 1, {}));
   }
