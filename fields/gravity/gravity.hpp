@@ -17,6 +17,7 @@ class Gravity final : public ForceField {
   static std::vector<Parameter> parameters();
 
   void add_forces(const BodyView& bodies, double time, WrenchView out) const override;
+  [[nodiscard]] bool is_steady() const override { return true; }
   [[nodiscard]] bool is_conservative() const override { return true; }
   /// [J]; zero for bodies at the world's origin.
   [[nodiscard]] double potential_energy(const BodyView& bodies, double time) const override;

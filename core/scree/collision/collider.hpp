@@ -50,4 +50,18 @@ struct CandidatePair {
   ColliderIndex b = 0;
 };
 
+/// Two bodies, a < b.
+struct BodyPair {
+  BodyIndex a = 0;
+  BodyIndex b = 0;
+
+  bool operator==(const BodyPair&) const = default;
+};
+
+/// Who may touch whom before anything has moved far; see StepServices::neighbours().
+struct NeighbourView {
+  std::span<const BodyPair> balls;  ///< pairs of bodies that are one sphere each, sorted
+  std::size_t others = 0;           ///< pairs of colliders with other shapes, which neighbour_contacts() looks at
+};
+
 }  // namespace scree

@@ -28,7 +28,7 @@ Aabb swept(const Aabb& tight, const ColliderMotion& m, const ColliderSpin& spin,
     }
   }
   const Vec3 way = rule.dt * m.velocity;
-  return expanded(merged(box, Aabb{box.lower + way, box.upper + way}), 0.5 * rule.slack * m.radius);
+  return expanded(merged(box, Aabb{box.lower + way, box.upper + way}), 0.5 * (rule.slack * m.radius + rule.skin));
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ double reach_of(const ColliderMotion& a, const ColliderSpin& spin_a, const Colli
   const Vec3 approach = small.velocity - large.velocity - cross(large_spin.spin, small.centre - large.centre);
   double speed = norm(approach);
   if (small_spin.turn_radius > 0.0) speed += norm(small_spin.spin - large_spin.spin) * small_spin.turn_radius;
-  return rule.dt * speed + rule.slack * small.radius;
+  return rule.dt * speed + rule.slack * small.radius + rule.skin;
 }
 
 void ColliderSet::note_new_shapes(const ShapeSet& shapes) {
@@ -205,6 +205,17 @@ void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::spa
       if (i == last) break;
       place(shapes, bodies, static_cast<BodyIndex>(i), velocity[i], angular_velocity[i], rule, at);
       ++i;
+    }
+  });
+}
+
+void ColliderSet::follow(const ShapeSet& shapes, const BodyView& bodies, std::span<const ColliderIndex> which,
+                         const Executor& executor) {
+  executor.for_chunks(which.size(), kBodiesPerChunk, [&](std::size_t first, std::size_t last) {
+    for (const ColliderIndex k : which.subspan(first, last - first)) {
+      const BodyIndex i = body_[k];
+      pose_[k] = Pose{bodies.position[i], bodies.orientation[i]} * shapes.primitives()[primitive_[k]].local;
+      ball_[k].centre = pose_[k].position;
     }
   });
 }

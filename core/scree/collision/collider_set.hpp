@@ -31,6 +31,7 @@ struct ColliderSpin {
 struct ReachRule {
   double dt = 0.0;     ///< [s]
   double slack = 0.0;  ///< added to the motion, in bounding radii of the smaller collider [1]
+  double skin = 0.0;   ///< added to that, the same for all [m]
 };
 
 /// A bound on how much the gap of two colliders can shrink within the step [m]:
@@ -40,12 +41,12 @@ struct ReachRule {
                               const ColliderSpin& spin_b, const ReachRule& rule);
 /// The same for two spheres.
 [[nodiscard]] inline double reach_of_spheres(const ColliderMotion& a, const ColliderMotion& b, const ReachRule& rule) {
-  return rule.dt * norm(a.velocity - b.velocity) + rule.slack * std::min(a.radius, b.radius);
+  return rule.dt * norm(a.velocity - b.velocity) + rule.slack * std::min(a.radius, b.radius) + rule.skin;
 }
 /// The box of a sphere swept along its motion and grown by its half of the slack [m], world.
 [[nodiscard]] inline Aabb swept_sphere(const ColliderMotion& m, const ReachRule& rule) {
   const Vec3 way = rule.dt * m.velocity;
-  const double grown = m.radius + 0.5 * rule.slack * m.radius;
+  const double grown = m.radius + 0.5 * (rule.slack * m.radius + rule.skin);
   return {{m.centre.x + std::min(0.0, way.x) - grown, m.centre.y + std::min(0.0, way.y) - grown,
            m.centre.z + std::min(0.0, way.z) - grown},
           {m.centre.x + std::max(0.0, way.x) + grown, m.centre.y + std::max(0.0, way.y) + grown,
@@ -53,7 +54,7 @@ struct ReachRule {
 }
 /// What all its motion, in whatever direction, and its half of the slack add to a bounding ball [m].
 [[nodiscard]] inline double margin_of(const ColliderMotion& m, const ReachRule& rule) {
-  return rule.dt * norm(m.velocity) + 0.5 * rule.slack * m.radius;
+  return rule.dt * norm(m.velocity) + 0.5 * (rule.slack * m.radius + rule.skin);
 }
 /// The bounding ball grown by that: two colliders whose grown balls are apart do not meet within the step. For spheres,
 /// reach_of_spheres() says no less.
@@ -81,6 +82,10 @@ class ColliderSet {
              std::span<const Vec3> angular_velocity, const ReachRule& rule, const ColliderUse& use,
              const Executor& executor);
 
+  /// Puts the colliders of `which`, in order, where their bodies are now. Boxes, and what velocities say, stay as built.
+  void follow(const ShapeSet& shapes, const BodyView& bodies, std::span<const ColliderIndex> which,
+              const Executor& executor);
+
   [[nodiscard]] ColliderView view() const;
   [[nodiscard]] std::size_t size() const { return key_.size(); }
   /// True when collider i is the only one of body i, for all bodies.
@@ -91,6 +96,8 @@ class ColliderSet {
     return {ball_[i].centre, ball_[i].radius, velocity_[i]};
   }
   [[nodiscard]] std::span<const Vec3> velocity() const { return velocity_; }
+  /// True when bodies of a shape have one collider, a sphere about the body's origin. Of shapes seen by build().
+  [[nodiscard]] bool is_ball(std::uint32_t shape) const { return shapes_[shape].single_sphere; }
   [[nodiscard]] ColliderSpin spin(ColliderIndex i) const {
     return kind_[i] == ShapeKind::sphere ? ColliderSpin{} : solids_[solid_of_[i]].spin;
   }

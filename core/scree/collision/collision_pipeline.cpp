@@ -4,43 +4,21 @@
 #include <functional>
 #include <string>
 
-#include "scree/base/error.hpp"
 #include "scree/base/release.hpp"
+#include "scree/collision/collider_kind.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree {
 namespace {
 
+using collider_kind::index;
+using collider_kind::kKinds;
+using collider_kind::unsupported;
+
 constexpr std::size_t kCandidatesPerChunk = 8192;
 constexpr std::size_t kCollidersPerChunk = 512;
 /// Below, all buffers but the contacts take ten megabytes, and are kept.
 constexpr std::size_t kManyBodies = std::size_t{1} << 16;
-
-std::size_t index(ShapeKind kind) { return static_cast<std::size_t>(kind); }
-
-/// Narrow phases tell one more kind apart than there are: a hollow cylinder is not a cylinder.
-constexpr std::size_t kHollow = kShapeKindCount;
-constexpr std::size_t kKinds = kShapeKindCount + 1;
-
-std::size_t index(const Primitive& primitive) { return primitive.hollow ? kHollow : index(primitive.kind); }
-
-const char* name_of(std::size_t kind) {
-  return kind == kHollow ? "hollow cylinder" : to_string(static_cast<ShapeKind>(kind));
-}
-
-bool supports(const NarrowPhase& phase, std::size_t a, std::size_t b) {
-  if (a == kHollow && b == kHollow) return false;
-  if (a == kHollow) return phase.supports_hollow(static_cast<ShapeKind>(b));
-  if (b == kHollow) return phase.supports_hollow(static_cast<ShapeKind>(a));
-  return phase.supports(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
-}
-
-Error unsupported(std::size_t a, std::size_t b) {
-  return Error{ErrorKind::usage, std::string{"no narrow phase of the scene computes contacts of "} + name_of(a) +
-                                     " against " + name_of(b) +
-                                     "; add one that does to its list of narrow phases, or give one of them "
-                                     "collides = false."};
-}
 
 /// Candidates ahead of the present one whose records are fetched into the cache.
 constexpr std::size_t kPrefetch = 16;
@@ -62,22 +40,6 @@ bool swept_spheres_meet(const ColliderMotion& a, const ColliderMotion& b, double
   return spheres_meet(a, b, reach) && overlap(swept_sphere(a, rule), swept_sphere(b, rule));
 }
 
-/// Which bodies have a kind of primitive: none, one or several.
-struct Holders {
-  std::size_t first = 0;
-  int count = 0;  // of different bodies, up to two
-
-  void add(std::size_t body) {
-    if (count == 0) first = body;
-    if (count == 0 || (count == 1 && body != first)) ++count;
-  }
-};
-
-/// True when a body of `a` and another one of `b` exist.
-bool can_differ(const Holders& a, const Holders& b) {
-  return a.count > 0 && b.count > 0 && (a.count > 1 || b.count > 1 || a.first != b.first);
-}
-
 }  // namespace
 
 CollisionPipeline::CollisionPipeline(const ShapeSet& shapes, BroadPhase& broad, std::vector<NarrowPhase*> chain,
@@ -85,8 +47,8 @@ CollisionPipeline::CollisionPipeline(const ShapeSet& shapes, BroadPhase& broad, 
     : shapes_{shapes}, broad_{broad}, chain_{std::move(chain)}, executor_{executor}, settings_{settings} {
   for (std::size_t a = 0; a < kKinds; ++a) {
     for (std::size_t b = 0; b < kKinds; ++b) {
-      const auto first =
-          std::find_if(chain_.begin(), chain_.end(), [&](const NarrowPhase* phase) { return supports(*phase, a, b); });
+      const auto first = std::find_if(chain_.begin(), chain_.end(),
+                                      [&](const NarrowPhase* phase) { return collider_kind::supports(*phase, a, b); });
       phase_[a][b] = first == chain_.end() ? -1 : static_cast<int>(first - chain_.begin());
       const bool sphere = a == index(ShapeKind::sphere) || b == index(ShapeKind::sphere);
       if (sphere && first != chain_.end()) reads_sphere_poses_ |= (*first)->reads_sphere_poses();
@@ -99,36 +61,6 @@ void CollisionPipeline::bind_new_shapes() {
   if (count == bound_primitives_) return;
   for (NarrowPhase* phase : chain_) phase->bind(shapes_, bound_primitives_);
   bound_primitives_ = count;
-}
-
-void CollisionPipeline::check_support(const BodyView& bodies) const {
-  // By kind and by group; without groups all bodies are in the first one.
-  using ByGroup = std::array<Holders, CollisionFilter::kMostGroups>;
-  std::array<ByGroup, kKinds> present{};
-  std::array<ByGroup, kKinds> moving{};
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (const Primitive& primitive : shapes_.primitives(shapes_.shapes()[bodies.shape[i]])) {
-      if (!primitive.collides) continue;
-      const CollisionGroup group = bodies.collision_group.empty() ? CollisionGroup{0} : bodies.collision_group[i];
-      present[index(primitive)][group].add(i);
-      if (bodies.motion[i] == Motion::dynamic) moving[index(primitive)][group].add(i);
-    }
-  }
-  const auto can_meet = [&](std::size_t a, std::size_t b) {
-    for (CollisionGroup g = 0; g < CollisionFilter::kMostGroups; ++g) {
-      for (CollisionGroup h = 0; moving[a][g].count > 0 && h < CollisionFilter::kMostGroups; ++h) {
-        if (filter_.groups_meet(g, h) && can_differ(moving[a][g], present[b][h])) return true;
-      }
-    }
-    return false;
-  };
-  for (std::size_t a = 0; a < kKinds; ++a) {
-    for (std::size_t b = 0; b < kKinds; ++b) {
-      // Planes never meet planes: both are half spaces without an edge.
-      const bool planes = a == index(ShapeKind::plane) && b == index(ShapeKind::plane);
-      if (phase_[a][b] < 0 && !planes && can_meet(a, b)) throw unsupported(a, b);
-    }
-  }
 }
 
 ColliderPair* CollisionPipeline::keep_spheres(std::span<const CandidatePair> batch, ColliderPair* out) const {
@@ -209,7 +141,7 @@ void CollisionPipeline::pair_unbounded(ColliderIndex plane, std::size_t first, s
     const double height = dot(normal, motion.centre - pose.position);
     if (still) {
       // Most are far away: told without a root, by less than rounding.
-      const double beyond = (1.0 - 1e-9) * height - (1.0 + rule_.slack) * motion.radius;
+      const double beyond = (1.0 - 1e-9) * height - (1.0 + rule_.slack) * motion.radius - rule_.skin;
       if (beyond > 0.0 && beyond * beyond > rule_.dt * rule_.dt * squared_norm(motion.velocity)) continue;
     }
     if (view.movable[other] == 0 && view.movable[plane] == 0) continue;
@@ -256,6 +188,12 @@ std::span<ColliderPair> CollisionPipeline::keep_chunk(std::size_t first, std::si
     });
   }
   return {begin, end};
+}
+
+/// A plane that does not turn comes as near as its velocity says, as a sphere does.
+bool CollisionPipeline::all_plain() const {
+  return colliders_.balls_alone() && !filter_.is_active() &&
+         std::ranges::all_of(colliders_.unbounded(), [&](auto plane) { return colliders_.spin(plane).spin == Vec3{}; });
 }
 
 void CollisionPipeline::find_candidates() {
@@ -313,10 +251,7 @@ void CollisionPipeline::cut_into_chunks() {
 }
 
 std::span<const Contact> CollisionPipeline::find_contacts(std::size_t expected) {
-  // A plane that does not turn comes as near as its velocity says, as a sphere does.
-  plain_ =
-      colliders_.balls_alone() && !filter_.is_active() &&
-      std::ranges::all_of(colliders_.unbounded(), [&](auto plane) { return colliders_.spin(plane).spin == Vec3{}; });
+  plain_ = all_plain();
   cut_into_chunks();
   const std::size_t chunks = chunk_begin_.size() - 1;
   std::span<const Contact> found;
@@ -379,14 +314,19 @@ std::span<const Contact> CollisionPipeline::join_contacts(std::size_t chunks) {
   return joined_contacts_;
 }
 
-std::span<const Contact> CollisionPipeline::find(const BodyView& bodies, std::span<const Vec3> velocity,
-                                                 std::span<const Vec3> angular_velocity, double dt) {
+void CollisionPipeline::place_colliders(const BodyView& bodies, std::span<const Vec3> velocity,
+                                        std::span<const Vec3> angular_velocity) {
   bind_new_shapes();
-  large_ = bodies.size() >= kManyBodies;
-  rule_ = {dt, settings_.reach_slack};
   if (filter_.is_active()) filter_.look_up(bodies);
   const ColliderUse use{.boxes = !broad_.takes_balls_alone(), .sphere_poses = reads_sphere_poses_};
   colliders_.build(shapes_, bodies, velocity, angular_velocity, rule_, use, executor_);
+}
+
+std::span<const Contact> CollisionPipeline::find(const BodyView& bodies, std::span<const Vec3> velocity,
+                                                 std::span<const Vec3> angular_velocity, double dt) {
+  large_ = bodies.size() >= kManyBodies;
+  rule_ = {.dt = dt, .slack = settings_.reach_slack};
+  place_colliders(bodies, velocity, angular_velocity);
   // Room for so many contacts, where candidates tell nothing.
   const std::size_t expected = counts_.contacts + counts_.contacts / 8;
   counts_ = {colliders_.size(), 0, 0, 0};

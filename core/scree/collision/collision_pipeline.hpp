@@ -51,6 +51,12 @@ class CollisionPipeline {
   std::span<const Contact> find(const BodyView& bodies, std::span<const Vec3> velocity,
                                 std::span<const Vec3> angular_velocity, double dt);
 
+  /// Pairs that come within `skin` [m] of each other as the bodies stand. Valid until the next call of find() or this.
+  NeighbourView find_neighbours(const BodyView& bodies, double skin);
+  /// Contacts with a gap below `reach` [m] of those neighbours that are not two balls, at the present poses of the same bodies;
+  /// sorted as those of find(), and valid as long.
+  std::span<const Contact> collide_neighbours(const BodyView& bodies, double reach);
+
   /// Who meets whom; to be set between steps.
   [[nodiscard]] CollisionFilter& filter() { return filter_; }
 
@@ -70,9 +76,14 @@ class CollisionPipeline {
   void pair_unbounded(ColliderIndex plane, std::size_t first, std::size_t last, std::vector<CandidatePair>& out) const;
   void add_unbounded();
   void find_candidates();
+  [[nodiscard]] bool all_plain() const;
   void cut_into_chunks();
   /// The pairs of the colliders first..last-1, sorted; they lie in pairs_, from `room` on.
   std::span<ColliderPair> keep_chunk(std::size_t first, std::size_t last, std::size_t room);
+  void place_colliders(const BodyView& bodies, std::span<const Vec3> velocity, std::span<const Vec3> angular_velocity);
+  void part_neighbours(const BodyView& bodies, std::span<const ColliderPair> pairs);
+  void drop_distant_neighbours();
+  void look_at_neighbours();
   void collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const;
   std::span<const Contact> find_contacts(std::size_t expected);
   std::span<const Contact> join_contacts(std::size_t chunks);
@@ -101,8 +112,12 @@ class CollisionPipeline {
   ContactBuffer contacts_;                        // of one thread
   UninitialisedVector<Contact> joined_contacts_;  // of several
   CollisionCounts counts_;
-  bool plain_ = false;  ///< all are spheres, or planes that do not turn, and may meet all
-  bool large_ = false;  ///< buffers are freed as soon as nobody reads them any more
+
+  std::vector<BodyPair> ball_neighbours_;
+  std::vector<ColliderPair> other_neighbours_;
+  std::vector<ColliderIndex> followed_;  // the colliders of those
+  bool plain_ = false;                   ///< all are spheres, or planes that do not turn, and may meet all
+  bool large_ = false;                   ///< buffers are freed as soon as nobody reads them any more
 };
 
 }  // namespace scree

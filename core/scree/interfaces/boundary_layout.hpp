@@ -16,6 +16,7 @@
 #include "scree/config/parameter.hpp"
 #include "scree/interfaces/broad_phase.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
+#include "scree/interfaces/contact_law.hpp"
 #include "scree/interfaces/observer.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/interfaces/time_stepper.hpp"
@@ -90,7 +91,11 @@ constexpr std::uint64_t boundary_layout() {
   digest.add<ContactMaterial>({offsetof(ContactMaterial, friction), offsetof(ContactMaterial, restitution),
                                offsetof(ContactMaterial, rolling_friction),
                                offsetof(ContactMaterial, spinning_friction), offsetof(ContactMaterial, compliance),
-                               offsetof(ContactMaterial, damping)});
+                               offsetof(ContactMaterial, damping), offsetof(ContactMaterial, surface_energy),
+                               offsetof(ContactMaterial, cohesion_energy_density)});
+  digest.add<ContactBatch>({offsetof(ContactBatch, overlap), offsetof(ContactBatch, normal),
+                            offsetof(ContactBatch, velocity), offsetof(ContactBatch, ahead),
+                            offsetof(ContactBatch, history), offsetof(ContactBatch, force)});
   digest.add<Vec3>({offsetof(Vec3, x), offsetof(Vec3, y), offsetof(Vec3, z)});
   digest.add<Quat>({offsetof(Quat, w), offsetof(Quat, x), offsetof(Quat, y), offsetof(Quat, z)});
   digest.add<Mat3>();
@@ -98,6 +103,9 @@ constexpr std::uint64_t boundary_layout() {
   digest.add<Aabb>();
   digest.add<ColliderPair>();
   digest.add<CandidatePair>();
+  digest.add<BodyPair>();
+  digest.add<NeighbourView>();
+  digest.add<ContactScale>();
   // What is made, asked for and reported once a call.
   digest.add<Parameter>();
   digest.add<Variant>();

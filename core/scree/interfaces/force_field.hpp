@@ -37,6 +37,9 @@ class ForceField : public Plugin {
   /// reads it. Entries of bodies that do not move by forces are ignored.
   virtual void add_forces(const BodyView& bodies, double time, WrenchView out) const = 0;
 
+  /// True when the wrench depends on neither the place, the motion nor the time: steppers that divide the outer step then ask
+  /// for it once.
+  [[nodiscard]] virtual bool is_steady() const { return false; }
   /// True when potential_energy() is meaningful.
   [[nodiscard]] virtual bool is_conservative() const { return false; }
   /// Potential energy of all bodies in this field [J]; force = - d/dx of it.

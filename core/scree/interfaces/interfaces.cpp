@@ -1,7 +1,10 @@
 // The out-of-line members of the interfaces: their destructors anchor the type information in libscree, so that a part
 // made in a plugin is recognised by the host, and the defaults of optional calls stand in one place.
+#include <stdexcept>
+
 #include "scree/interfaces/broad_phase.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
+#include "scree/interfaces/contact_law.hpp"
 #include "scree/interfaces/electric_field.hpp"
 #include "scree/interfaces/force_field.hpp"
 #include "scree/interfaces/narrow_phase.hpp"
@@ -22,6 +25,9 @@ void Plugin::release_workspace() {}
 BroadPhase::~BroadPhase() = default;
 
 CcpSolver::~CcpSolver() = default;
+
+ContactLaw::~ContactLaw() = default;
+void ContactLaw::setup(SceneServices&) {}
 
 ElectricField::~ElectricField() = default;
 void ElectricField::setup(SceneServices&) {}
@@ -50,6 +56,13 @@ std::vector<ReportTable> Source::report() const { return {}; }
 void Source::setup(SceneServices&) {}
 
 StepServices::~StepServices() = default;
+NeighbourView StepServices::neighbours(const BodyView&, double) {
+  throw std::logic_error{"this host finds no neighbours"};
+}
+std::span<const Contact> StepServices::neighbour_contacts(const BodyView&, double) {
+  throw std::logic_error{"this host finds no neighbours"};
+}
+
 TimeStepper::~TimeStepper() = default;
 void TimeStepper::setup(SceneServices&) {}
 

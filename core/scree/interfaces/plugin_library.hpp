@@ -28,7 +28,7 @@
 namespace scree {
 
 /// Raised whenever an interface of a plugin changes.
-inline constexpr std::uint32_t kPluginAbi = 4;
+inline constexpr std::uint32_t kPluginAbi = 5;
 
 /// One plugin of a library: its name and how to make one.
 struct PluginEntry {

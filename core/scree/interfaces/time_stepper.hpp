@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "scree/collision/collider.hpp"
 #include "scree/collision/contact.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 #include "scree/interfaces/plugin.hpp"
@@ -11,6 +12,7 @@
 
 namespace scree {
 
+class ContactLaw;
 class Machine;
 class Materials;
 class SceneServices;
@@ -30,6 +32,16 @@ class StepServices {
   /// next call.
   virtual std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
                                             std::span<const Vec3> free_angular_velocity, double dt) = 0;
+  /// The pairs that come within `skin` [m] of each other at the state `bodies`. As long as no two surfaces approach by more
+  /// than that, no other pair touches. Valid until the next call.
+  virtual NeighbourView neighbours(const BodyView& bodies, double skin);
+  /// Contacts with a gap below `reach` [m] at the state `bodies`, among those pairs of neighbours() that are not of two
+  /// balls; sorted as contacts() are. Bodies are those of that call, moved. Valid until the next call.
+  virtual std::span<const Contact> neighbour_contacts(const BodyView& bodies, double reach);
+  /// True when forces() depends on neither place, motion nor time, and may be asked for once an outer step.
+  [[nodiscard]] virtual bool forces_are_steady() const { return false; }
+  /// The scene's law of soft contacts; null when there is none.
+  [[nodiscard]] virtual const ContactLaw* contact_law() const { return nullptr; }
   /// Solves a CCP with the scene's solver and judges the answer; `gamma` [N s]: warm start in, impulses out.
   virtual SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) = 0;
   [[nodiscard]] virtual const Materials& materials() const = 0;
@@ -81,6 +93,9 @@ class TimeStepper : public Plugin {
   /// True when a step solves contact problems: the scene then needs a [ccp_solver] and, for bodies that may touch, a
   /// [[narrow_phase]].
   [[nodiscard]] virtual bool needs_ccp_solver() const { return false; }
+  /// True when contacts are soft: the scene then needs a [contact_law] and, for bodies that may touch, a [[narrow_phase]].
+  /// What the law says of rolling and cohesion holds in place of resists_rolling().
+  [[nodiscard]] virtual bool needs_contact_law() const { return false; }
   /// True when contacts resist rolling and spinning (ContactMaterial::rolling_friction, spinning_friction). A scene that
   /// sets them for a stepper that does not is refused.
   [[nodiscard]] virtual bool resists_rolling() const { return false; }

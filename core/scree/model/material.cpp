@@ -29,7 +29,9 @@ ContactMaterial combine(PairRule rule, const ContactMaterial& a, const ContactMa
           .rolling_friction = combine(rule, a.rolling_friction, b.rolling_friction),
           .spinning_friction = combine(rule, a.spinning_friction, b.spinning_friction),
           .compliance = a.compliance + b.compliance,
-          .damping = combine(rule, a.damping, b.damping)};
+          .damping = combine(rule, a.damping, b.damping),
+          .surface_energy = combine(rule, a.surface_energy, b.surface_energy),
+          .cohesion_energy_density = combine(rule, a.cohesion_energy_density, b.cohesion_energy_density)};
 }
 
 }  // namespace

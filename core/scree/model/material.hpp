@@ -11,12 +11,14 @@ namespace scree {
 
 /// Contact parameters of a pair of materials.
 struct ContactMaterial {
-  double friction = 0.0;           ///< sliding, Coulomb [1]
-  double restitution = 0.0;        ///< Newton, normal [1]
-  double rolling_friction = 0.0;   ///< arm of the rolling torque [m]
-  double spinning_friction = 0.0;  ///< arm of the spinning torque [m]
-  double compliance = 0.0;         ///< normal, 1 / stiffness [m/N]; 0 is rigid
-  double damping = 0.0;            ///< normal, of a compliant contact [N s/m]
+  double friction = 0.0;                 ///< sliding, Coulomb [1]
+  double restitution = 0.0;              ///< Newton, normal [1]
+  double rolling_friction = 0.0;         ///< arm of the rolling torque [m]
+  double spinning_friction = 0.0;        ///< arm of the spinning torque [m]
+  double compliance = 0.0;               ///< normal, 1 / stiffness [m/N]; 0 is rigid
+  double damping = 0.0;                  ///< normal, of a compliant contact [N s/m]
+  double surface_energy = 0.0;           ///< work of adhesion of the pair, that of both surfaces [J/m2]
+  double cohesion_energy_density = 0.0;  ///< attraction per area of contact [J/m3]
 
   bool operator==(const ContactMaterial&) const = default;
 };
@@ -27,7 +29,9 @@ struct Material {
   double density = 1000.0;  ///< [kg/m3]
   ContactMaterial contact;  ///< its half of a pair that the scene does not list
   std::vector<std::pair<std::string, double>>
-      attributes;  ///< body attributes that come with the material [their units]
+      attributes;               ///< body attributes that come with the material [their units]
+  double young_modulus = 0.0;   ///< of elastic contacts [Pa]; 0: not known
+  double poisson_ratio = 0.25;  ///< the same [1]
 };
 
 /// How a pair that the scene does not list gets its parameters from the two

@@ -24,6 +24,10 @@ class BirthCheck {
   void start() { births_.clear(); }
   /// What is added from now on, from index `first`, comes from `source`, which outlives the step.
   void expect(BodyIndex first, const PartInfo& source) { births_.push_back({first, &source}); }
+  /// The first body that was born and not looked at yet, among `count` bodies; `count` when there is none.
+  [[nodiscard]] BodyIndex first_unseen(std::size_t count) const {
+    return births_.empty() ? static_cast<BodyIndex>(count) : births_.front().first;
+  }
   /// Looks at the contacts of the newborn, once; `known` are the bodies of the scene, by id.
   /// @throws Error (usage) naming the source, the bodies and the depth when one overlaps by more than allowed.
   void check(const BodyView& bodies, std::span<const Contact> contacts, std::span<const SceneBody> known);

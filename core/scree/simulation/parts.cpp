@@ -144,6 +144,7 @@ Parts make_parts(const SceneDocument& document, const PluginCatalog& catalog) {
     parts.solver_iterations = static_cast<int>(core.integer("max_iterations"));
     parts.active_set = core.boolean("active_set");
   }
+  if (root.has("contact_law")) parts.law = make_part<ContactLaw>(root.table("contact_law"), catalog);
   parts.broad = make_required<BroadPhase>(root, catalog);
   parts.narrow = make_list<NarrowPhase>(root, catalog);
   if (parts.narrow.empty()) parts.narrow = default_chain(root, catalog);

@@ -6,6 +6,7 @@
 
 #include "scree/interfaces/broad_phase.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
+#include "scree/interfaces/contact_law.hpp"
 #include "scree/interfaces/electric_field.hpp"
 #include "scree/interfaces/force_field.hpp"
 #include "scree/interfaces/narrow_phase.hpp"
@@ -27,6 +28,7 @@ struct Parts {
   double solver_tolerance = 0.0;  ///< ccp_residual [m/s]
   int solver_iterations = 0;
   bool active_set = true;  ///< solve by the contacts that matter (scree/ccp/active_set.hpp)
+  std::optional<Part<ContactLaw>> law;
   Part<BroadPhase> broad;
   std::vector<Part<NarrowPhase>> narrow;
   std::vector<Part<ElectricField>> electric;
@@ -41,6 +43,7 @@ struct Parts {
     const auto one = [&](const auto& part) { visit(part.info, part.options, static_cast<Plugin&>(*part.plugin)); };
     one(stepper);
     if (solver) one(*solver);
+    if (law) one(*law);
     one(broad);
     const auto all = [&](const auto& parts) {
       for (const auto& part : parts) one(part);

@@ -33,7 +33,9 @@ ContactMaterial contact_material(const Options& o) {
           .rolling_friction = o.number("rolling_friction"),
           .spinning_friction = o.number("spinning_friction"),
           .compliance = o.number("compliance"),
-          .damping = o.number("damping")};
+          .damping = o.number("damping"),
+          .surface_energy = o.number("surface_energy"),
+          .cohesion_energy_density = o.number("cohesion_energy_density")};
 }
 
 PairRule pair_rule(const std::string& word) {
@@ -55,7 +57,12 @@ void read_materials(const SceneTable& root, SceneModel& model) {
   model.materials.set_rule(pair_rule(model.contacts.text("unlisted_pair")));
   for (const auto& [name, table] : root.named_tables("material")) {
     Options o = validate(table, scene_section("material").parameters, "material " + in_quotes(name));
-    Material material{name, o.number("density"), contact_material(o), {}};
+    Material material{.name = name,
+                      .density = o.number("density"),
+                      .contact = contact_material(o),
+                      .attributes = {},
+                      .young_modulus = o.number("young_modulus"),
+                      .poisson_ratio = o.number("poisson_ratio")};
     if (o.has("attributes")) {
       for (const std::string& key : o.table("attributes").names()) {
         material.attributes.emplace_back(key, o.table("attributes").number(key));

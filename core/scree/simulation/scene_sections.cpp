@@ -10,23 +10,30 @@ namespace scree {
 namespace {
 
 std::vector<Parameter> contact_parameters() {
-  return {Parameter::number("friction", "1", "coefficient of sliding friction").at_least(0.0).by_default(0.0),
-          Parameter::number("restitution", "1", "coefficient of restitution of the normal velocity")
-              .at_least(0.0)
-              .at_most(1.0)
-              .by_default(0.0),
-          Parameter::number("rolling_friction", "m", "arm of the rolling torque: at most this times the normal force")
-              .at_least(0.0)
-              .by_default(0.0),
-          Parameter::number("spinning_friction", "m", "arm of the spinning torque: at most this times the normal force")
-              .at_least(0.0)
-              .by_default(0.0),
-          Parameter::number("compliance", "m/N",
-                            "normal compliance, the inverse of a stiffness; 0 is rigid. In an unlisted pair the two "
-                            "materials' add up, so that two bodies of one material touch with twice its value")
-              .at_least(0.0)
-              .by_default(0.0),
-          Parameter::number("damping", "N s/m", "normal damping of a compliant contact").at_least(0.0).by_default(0.0)};
+  return {
+      Parameter::number("friction", "1", "coefficient of sliding friction").at_least(0.0).by_default(0.0),
+      Parameter::number("restitution", "1", "coefficient of restitution of the normal velocity")
+          .at_least(0.0)
+          .at_most(1.0)
+          .by_default(0.0),
+      Parameter::number("rolling_friction", "m", "arm of the rolling torque: at most this times the normal force")
+          .at_least(0.0)
+          .by_default(0.0),
+      Parameter::number("spinning_friction", "m", "arm of the spinning torque: at most this times the normal force")
+          .at_least(0.0)
+          .by_default(0.0),
+      Parameter::number("compliance", "m/N",
+                        "normal compliance, the inverse of a stiffness; 0 is rigid. In an unlisted pair the two "
+                        "materials' add up, so that two bodies of one material touch with twice its value")
+          .at_least(0.0)
+          .by_default(0.0),
+      Parameter::number("damping", "N s/m", "normal damping of a compliant contact").at_least(0.0).by_default(0.0),
+      Parameter::number("surface_energy", "J/m2", "work of adhesion, for contact laws with JKR or DMT cohesion")
+          .at_least(0.0)
+          .by_default(0.0),
+      Parameter::number("cohesion_energy_density", "J/m3", "attraction per contact area, for contact laws that have it")
+          .at_least(0.0)
+          .by_default(0.0)};
 }
 
 Parameter group_parameter() {
@@ -156,6 +163,10 @@ std::vector<SceneSection> model_sections() {
       {"material", SectionForm::named, "A material: [material.steel].",
        std::vector<Parameter>{
            Parameter::number("density", "kg/m3", "mass density").above(0.0).by_default(1000.0),
+           Parameter::number("young_modulus", "Pa", "for contact laws of elastic spheres; 0: not known")
+               .at_least(0.0)
+               .by_default(0.0),
+           Parameter::number("poisson_ratio", "1", "the same").at_least(0.0).at_most(0.5).by_default(0.25),
            Parameter::columns("attributes", {}, "any", "body attributes that come with the material, in SI")
                .optional()} +
            contact_parameters()},
@@ -207,6 +218,7 @@ std::vector<SceneSection> part_sections() {
         Parameter::boolean("active_set",
                            "put aside contacts that the guess leaves open, until a solve would close them")
             .by_default(true)}},
+      {"contact_law", SectionForm::at_most_one_plugin, "Forces of soft contacts, for steppers that need them.", {}},
       {"broad_phase", SectionForm::at_most_one_plugin, "Finds pairs of boxes that meet.", {}},
       {"narrow_phase", SectionForm::plugin_list, "Computes contacts; the first that supports a pair gets it.", {name}},
       {"electric_field", SectionForm::plugin_list, "Fields that force fields look up by name.", {name}},

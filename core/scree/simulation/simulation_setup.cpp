@@ -89,6 +89,7 @@ void Simulation::State::setup_parts() {
   for (const auto& part : parts.forces) setup(part);
   for (const auto& part : parts.sources) setup(part);
   for (const auto& part : parts.sinks) setup(part);
+  if (parts.law) setup(*parts.law);
   setup(parts.stepper);
   for (const auto& part : parts.observers) {
     services->serve(part.info);

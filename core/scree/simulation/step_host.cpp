@@ -1,5 +1,6 @@
 #include "scree/simulation/step_host.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "scree/base/release.hpp"
@@ -18,6 +19,37 @@ std::span<const Contact> StepHost::contacts(const BodyView& bodies, std::span<co
   const std::span<const Contact> found = pipeline_.find(bodies, free_velocity, free_angular_velocity, dt);
   if (births_ != nullptr) births_->check(bodies, found, known_);
   return found;
+}
+
+NeighbourView StepHost::neighbours(const BodyView& bodies, double skin) {
+  const PhaseTimer::Scope scope{timer_, Phase::collision};
+  const NeighbourView found = pipeline_.find_neighbours(bodies, skin);
+  if (births_ != nullptr && births_->first_unseen(bodies.size()) < bodies.size()) check_births(bodies, found);
+  return found;
+}
+
+// Neighbours that are balls never become contacts of the host.
+void StepHost::check_births(const BodyView& bodies, const NeighbourView& neighbours) {
+  const BodyIndex first = births_->first_unseen(bodies.size());
+  const std::span<const Contact> others = pipeline_.collide_neighbours(bodies, 0.0);
+  std::vector<Contact> contacts{others.begin(), others.end()};
+  for (const auto [a, b] : neighbours.balls) {
+    if (b < first) continue;
+    const double gap = norm(bodies.position[b] - bodies.position[a]) - bodies.radius[a] - bodies.radius[b];
+    if (gap >= 0.0) continue;
+    contacts.emplace_back();
+    contacts.back().a = a, contacts.back().b = b, contacts.back().gap = gap;
+  }
+  births_->check(bodies, contacts, known_);
+}
+
+std::span<const Contact> StepHost::neighbour_contacts(const BodyView& bodies, double reach) {
+  const PhaseTimer::Scope scope{timer_, Phase::collision};
+  return pipeline_.collide_neighbours(bodies, reach);
+}
+
+bool StepHost::forces_are_steady() const {
+  return std::ranges::all_of(parts_.forces, [](const Part<ForceField>& field) { return field.plugin->is_steady(); });
 }
 
 SolveSummary StepHost::solve_ccp(const CcpProblem& problem, std::span<double> gamma) {

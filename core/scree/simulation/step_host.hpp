@@ -39,6 +39,12 @@ class StepHost final : public StepServices {
   void forces(const BodyView& bodies, double time, WrenchView out) override;
   std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
                                     std::span<const Vec3> free_angular_velocity, double dt) override;
+  NeighbourView neighbours(const BodyView& bodies, double skin) override;
+  std::span<const Contact> neighbour_contacts(const BodyView& bodies, double reach) override;
+  [[nodiscard]] bool forces_are_steady() const override;
+  [[nodiscard]] const ContactLaw* contact_law() const override {
+    return parts_.law ? parts_.law->plugin.get() : nullptr;
+  }
   SolveSummary solve_ccp(const CcpProblem& problem, std::span<double> gamma) override;
   [[nodiscard]] const Materials& materials() const override { return materials_; }
   [[nodiscard]] const Executor& executor() const override { return executor_; }
@@ -50,6 +56,8 @@ class StepHost final : public StepServices {
   void tap_next(ProblemTap tap) { tap_ = std::move(tap); }
 
  private:
+  void check_births(const BodyView& bodies, const NeighbourView& neighbours);
+
   const Parts& parts_;
   CollisionPipeline& pipeline_;
   Machine& machine_;

@@ -12,11 +12,20 @@ void check_solver(const Parts& parts) {
                                     "one with `type`");
 }
 
+void check_law(const Parts& parts) {
+  if (!parts.stepper.plugin->needs_contact_law() || parts.law) return;
+  throw parts.stepper.options.error(
+      parts.stepper.info.label() +
+      " has soft contacts, but the scene has no [contact_law]; add one with `type`, such as "
+      "linear_spring_dashpot");
+}
+
 void check_narrow_phase(const Parts& parts, const CollisionPipeline& pipeline, const BodyView& bodies) {
   const std::string missing = "but the scene has no [[narrow_phase]]; add one with `type`";
   if (!parts.narrow.empty()) return pipeline.check_support(bodies);
   // What sources add is not known before they do.
-  if (parts.stepper.plugin->needs_ccp_solver() && !parts.sources.empty()) {
+  const TimeStepper& stepper = *parts.stepper.plugin;
+  if ((stepper.needs_ccp_solver() || stepper.needs_contact_law()) && !parts.sources.empty()) {
     throw parts.sources[0].options.error(parts.sources[0].info.label() + " adds bodies that may touch, " + missing);
   }
   try {
@@ -26,12 +35,23 @@ void check_narrow_phase(const Parts& parts, const CollisionPipeline& pipeline, c
   }
 }
 
-void check_rolling(const TimeStepper& stepper, const std::string& label, const Options& contact) {
-  if (stepper.resists_rolling()) return;
-  for (const char* key : {"rolling_friction", "spinning_friction"}) {
-    if (contact.number(key) == 0.0) continue;
-    throw contact.error(
-        key, "is not zero, but " + label + " does not resist rolling or spinning; set it to 0 or take it away");
+/// Refuses what a contact asks for and neither stepper nor law does.
+void check_contact(const Parts& parts, const Options& contact) {
+  const bool soft = parts.stepper.plugin->needs_contact_law();
+  const std::string label = soft ? parts.law->info.label() : parts.stepper.info.label();
+  const bool rolls = soft ? parts.law->plugin->resists_rolling() : parts.stepper.plugin->resists_rolling();
+  const bool coheres = soft && parts.law->plugin->coheres();
+  const auto refuse = [&](const char* key, const char* what) {
+    if (contact.number(key) == 0.0) return;
+    throw contact.error(key, "is not zero, but " + label + " does not " + what + "; set it to 0 or take it away");
+  };
+  if (!rolls) {
+    refuse("rolling_friction", "resist rolling or spinning");
+    refuse("spinning_friction", "resist rolling or spinning");
+  }
+  if (!coheres) {
+    refuse("surface_energy", "let bodies attract each other");
+    refuse("cohesion_energy_density", "let bodies attract each other");
   }
 }
 
@@ -47,13 +67,11 @@ void check_joints(const Parts& parts, const SceneModel& model) {
 void check_stepper_needs(const Parts& parts, const SceneModel& model, const CollisionPipeline& pipeline,
                          const BodyView& bodies) {
   check_solver(parts);
+  check_law(parts);
   check_joints(parts, model);
   check_narrow_phase(parts, pipeline, bodies);
-  const std::string label = parts.stepper.info.label();
-  for (const NamedOptions& material : model.material_options) {
-    check_rolling(*parts.stepper.plugin, label, material.options);
-  }
-  for (const Options& pair : model.pair_options) check_rolling(*parts.stepper.plugin, label, pair);
+  for (const NamedOptions& material : model.material_options) check_contact(parts, material.options);
+  for (const Options& pair : model.pair_options) check_contact(parts, pair);
 }
 
 }  // namespace scree

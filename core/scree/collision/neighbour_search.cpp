@@ -1,0 +1,102 @@
+// The part of CollisionPipeline that serves steppers with steps far shorter than the time in which neighbours change: pairs are
+// found once, and looked at again and again while the bodies move.
+#include <algorithm>
+
+#include "scree/base/release.hpp"
+#include "scree/collision/collision_pipeline.hpp"
+#include "scree/parallel/executor.hpp"
+
+namespace scree {
+namespace {
+
+constexpr std::size_t kPairsPerChunk = 256;
+
+}  // namespace
+
+NeighbourView CollisionPipeline::find_neighbours(const BodyView& bodies, double skin) {
+  large_ = false;  // what is found stays in use
+  // Bodies stand still: their velocities do not matter, and the slack is for contacts that flicker.
+  rule_ = {.skin = skin};
+  place_colliders(bodies, bodies.velocity, bodies.angular_velocity);
+  counts_ = {colliders_.size(), 0, 0, 0};
+  find_candidates();
+  plain_ = all_plain();
+  cut_into_chunks();
+  const std::size_t chunks = chunk_begin_.size() - 1;
+  ball_neighbours_.clear();
+  other_neighbours_.clear();
+  resize_kept(sorter_.size(), pairs_);
+  chunk_pairs_.resize(chunks);
+  executor_.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
+    const std::size_t first = chunk_begin_[chunk];
+    chunk_pairs_[chunk] = keep_chunk(first, chunk_begin_[chunk + 1], sorter_.begin(first)).size();
+  });
+  for (std::size_t k = 0; k < chunks; ++k) {
+    counts_.pairs += chunk_pairs_[k];
+    part_neighbours(bodies, {pairs_.data() + sorter_.begin(chunk_begin_[k]), chunk_pairs_[k]});
+  }
+  drop_distant_neighbours();
+  return {ball_neighbours_, other_neighbours_.size()};
+}
+
+/// Adds pairs of two bodies that are one ball each to the one list, and all other pairs to the other.
+void CollisionPipeline::part_neighbours(const BodyView& bodies, std::span<const ColliderPair> pairs) {
+  const auto body = colliders_.view().body;
+  for (const ColliderPair& pair : pairs) {
+    const BodyIndex a = body[pair.a], b = body[pair.b];
+    if (colliders_.is_ball(bodies.shape[a]) && colliders_.is_ball(bodies.shape[b])) {
+      ball_neighbours_.push_back({a, b});
+    } else {
+      other_neighbours_.push_back(pair);
+    }
+  }
+}
+
+/// A grain within the box of a large mesh need not be near its surface: pairs without a contact within their reach are left out
+/// until the next search.
+void CollisionPipeline::drop_distant_neighbours() {
+  look_at_neighbours();
+  const ColliderView view = colliders_.view();
+  const auto is_of = [&](const Contact& c, const ColliderPair& pair) {
+    return c.a == view.body[pair.a] && c.b == view.body[pair.b] && c.primitive_a == view.ordinal[pair.a] &&
+           c.primitive_b == view.ordinal[pair.b];
+  };
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < other_neighbours_.size(); first += kPairsPerChunk) {
+    const ContactBuffer& contacts = chunk_contacts_[first / kPairsPerChunk];
+    std::size_t next = 0;
+    for (std::size_t k = first; k < std::min(first + kPairsPerChunk, other_neighbours_.size()); ++k) {
+      const ColliderPair pair = other_neighbours_[k];
+      if (next == contacts.size() || !is_of(contacts[next], pair)) continue;
+      while (next < contacts.size() && is_of(contacts[next], pair)) ++next;
+      other_neighbours_[kept++] = pair;
+    }
+  }
+  other_neighbours_.resize(kept);
+  followed_.clear();
+  for (const ColliderPair& pair : other_neighbours_) followed_.insert(followed_.end(), {pair.a, pair.b});
+  std::ranges::sort(followed_);
+  followed_.erase(std::unique(followed_.begin(), followed_.end()), followed_.end());
+}
+
+/// The contacts of other_neighbours_, chunk by chunk of kPairsPerChunk.
+void CollisionPipeline::look_at_neighbours() {
+  const std::size_t chunks = Executor::chunk_count(other_neighbours_.size(), kPairsPerChunk);
+  if (chunk_contacts_.size() < chunks) chunk_contacts_.resize(chunks);
+  executor_.for_chunks(other_neighbours_.size(), kPairsPerChunk, [&](std::size_t first, std::size_t last) {
+    ContactBuffer& out = chunk_contacts_[first / kPairsPerChunk];
+    out.clear();
+    collide(std::span<const ColliderPair>{other_neighbours_}.subspan(first, last - first), out);
+  });
+}
+
+std::span<const Contact> CollisionPipeline::collide_neighbours(const BodyView& bodies, double reach) {
+  for (ColliderPair& pair : other_neighbours_) pair.reach = reach;
+  colliders_.follow(shapes_, bodies, followed_, executor_);
+  look_at_neighbours();
+  const std::span<const Contact> found = join_contacts(Executor::chunk_count(other_neighbours_.size(), kPairsPerChunk));
+  counts_.contacts = found.size();
+  return found;
+}
+
+}  // namespace scree
