@@ -161,8 +161,8 @@ def report(rows, folder):
     print(f"\n| tolerance [m/s] | solver | fastest | within 2x | within 10x | solved |\n|{'---|' * 6}")
     for tolerance in TOLERANCES:
         ratios, problems = ratios_of(rows, tolerance)
-        profile_plot.draw(folder / f"profile_{tolerance:.0e}.svg", f"{problems} contact problems to {tolerance:.0e} m/s",
-                          ratios, problems)
+        profile_plot.draw(folder / f"profile_{tolerance:.0e}.svg", f"{problems} contact problems to {tolerance:g} m/s",
+                          ratios, problems, [name for name in ratios if name.split("_")[0] in ("bullet", "siconos")])
         for solver, values in ratios.items():
             shares = [sum(v <= factor for v in values) / problems for factor in (1.0, 2.0, 10.0, float("inf"))]
             print(f"| {tolerance:.0e} | `{solver}` | " + " | ".join(f"{100 * s:.0f} %" for s in shares) + " |")
