@@ -66,11 +66,12 @@ def draw(path, title, ratios, problems, dashed=()):
              f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>', *_axes(title, greatest)]
     colours = {name: COLOURS[k % len(COLOURS)] for group in (set(ratios) - set(dashed), set(dashed))
                for k, name in enumerate(name for name in ratios if name in group)}
+    pitch = min(20.0, (BOTTOM - TOP) / max(len(order), 1))
     for k, name in enumerate(order):
         style = f'stroke="{colours[name]}"' + (' stroke-dasharray="5 3"' if name in dashed else "")
         parts += _curve(sorted(ratios[name]), problems, greatest, style)
-        y = TOP + 14 + 20 * k
-        parts.append(f'<line x1="{RIGHT + 14}" x2="{RIGHT + 42}" y1="{y - 4}" y2="{y - 4}" stroke-width="2" {style}/>')
+        y = TOP + 14 + pitch * k
+        parts.append(f'<line x1="{RIGHT + 14}" x2="{RIGHT + 42}" y1="{y - 4:.1f}" y2="{y - 4:.1f}" stroke-width="2" {style}/>')
         parts.append(_text(RIGHT + 86, y, f"{100 * len(ratios[name]) / problems:.0f} %", "end"))
         parts.append(_text(RIGHT + 94, y, name, "start"))
     path.write_text("\n".join([*parts, "</svg>"]) + "\n")
