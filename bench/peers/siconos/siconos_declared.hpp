@@ -4,6 +4,7 @@
 
 #include <NumericsFwd.h>
 
+// NOLINTBEGIN(readability-identifier-naming): names of Siconos.
 extern "C" {
 
 /// Find r in the product of the cones |r_t| <= tau r_n with v = M r + q in its dual, r . v = 0.
@@ -32,6 +33,7 @@ int soclcp_driver(SecondOrderConeLinearComplementarityProblem* problem, double* 
 void convexQP_ProjectedGradient(ConvexQP* problem, double* z, double* w, int* info, SolverOptions* options);
 void convexQP_ADMM(ConvexQP* problem, double* z, double* w, double* xi, double* u, int* info, SolverOptions* options);
 }
+// NOLINTEND(readability-identifier-naming)
 
 namespace scree {
 
