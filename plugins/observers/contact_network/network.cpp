@@ -15,10 +15,10 @@ Link link_of(const ContactView& contacts, std::size_t first, std::size_t last, d
   Vec3 shear;
   for (std::size_t k = first; k < last; ++k) {
     const Vec3& impulse = contacts.impulse[k];
-    if (!(impulse.x > 0.0)) continue;
+    if (impulse.x == 0.0) continue;
     const ContactFrame frame = contact_frame(contacts.contact[k].normal);
     link.normal_force += impulse.x / dt;
-    link.normal += (impulse.x / dt) * frame.normal;
+    link.normal += std::abs(impulse.x / dt) * frame.normal;
     shear += to_world(frame, {0.0, impulse.y / dt, impulse.z / dt});
     link.mobilisation = std::max(link.mobilisation, mobilisation(impulse, friction));
     link.slides = link.slides || slides(impulse, friction);
@@ -52,7 +52,7 @@ void build_network(const BodyView& bodies, const ContactView& contacts, double d
     const double friction = materials.pair(bodies.material[pair.a], bodies.material[pair.b]).friction;
     const Link link = link_of(contacts, first, last, dt, friction);
     first = last;
-    if (link.normal_force == 0.0) continue;
+    if (link.normal == Vec3{}) continue;
     network.links.push_back(link);
     ++network.degree[link.a];
     ++network.degree[link.b];
