@@ -2,9 +2,9 @@
 
 import math
 
-COLOURS = ("#1b6ca8", "#d1495b", "#2e8b57", "#e08e0b", "#6a4c93", "#00798c", "#8d6a3f", "#c43b8e", "#555555", "#7cb518")
-WIDTH, HEIGHT = 640, 400
-LEFT, RIGHT, TOP, BOTTOM = 60, 470, 40, 345  # of the axes; the legend stands to the right
+COLOURS = ("#1b6ca8", "#d1495b", "#2e8b57", "#e08e0b", "#6a4c93", "#00a5a8", "#8d6a3f", "#c43b8e", "#555555", "#7cb518")
+LEFT, RIGHT, TOP, BOTTOM = 60, 560, 40, 400  # of the axes; the legend stands to the right
+WIDTH, HEIGHT = 800, 455
 
 
 def _x(value, greatest):
@@ -20,8 +20,7 @@ def _text(x, y, words, anchor="middle", size=12, turn=""):
 
 
 def _axes(title, greatest):
-    parts = [f'<rect x="{LEFT}" y="{TOP}" width="{RIGHT - LEFT}" height="{BOTTOM - TOP}" fill="none" stroke="black"/>',
-             _text((LEFT + RIGHT) / 2, 24, title, size=14),
+    parts = [_text((LEFT + RIGHT) / 2, 24, title, size=14),
              _text((LEFT + RIGHT) / 2, HEIGHT - 14, "time over that of the fastest solver of the problem [1]"),
              _text(18, (TOP + BOTTOM) / 2, "share of the problems solved [1]",
                    turn=f' transform="rotate(-90 18 {(TOP + BOTTOM) / 2})"')]
@@ -35,32 +34,44 @@ def _axes(title, greatest):
         x = _x(factor, greatest)
         parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{TOP}" y2="{BOTTOM}" stroke="#ddd"/>')
         parts.append(_text(x, BOTTOM + 18, str(factor)))
+    parts.append(f'<rect x="{LEFT}" y="{TOP}" width="{RIGHT - LEFT}" height="{BOTTOM - TOP}" fill="none" stroke="black"/>')
     return parts
 
 
-def _curve(ratios, problems, greatest):
-    """`ratios`, sorted, of the problems that were solved, among `problems`."""
-    share, points = 0.0, [(LEFT, _y(0.0))]
+def _curve(ratios, problems, greatest, style):
+    """`ratios`, sorted, of the problems that were solved, among `problems`. Ends in a dot at the last of them, and goes on thin."""
+    if not ratios:
+        return []
+    points = []
     for k, ratio in enumerate(ratios):
-        if ratio > greatest:
-            break
-        x = _x(ratio, greatest)
-        points += [(x, _y(share)), (x, _y((k + 1) / problems))]
-        share = (k + 1) / problems
-    points.append((RIGHT, _y(share)))
-    return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        x = _x(min(ratio, greatest), greatest)
+        points += [(x, _y(k / problems)), (x, _y((k + 1) / problems))]
+    x, y = points[-1]
+    path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+    return [f'<polyline points="{path}" fill="none" stroke-width="2" {style}/>',
+            f'<line x1="{x:.1f}" x2="{RIGHT}" y1="{y:.1f}" y2="{y:.1f}" stroke-width="0.8" {style}/>',
+            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="white" stroke-width="2" {style.split(" stroke-dasharray")[0]}/>']
 
 
-def draw(path, title, ratios, problems, greatest=100.0):
-    """Writes the profile of each solver: `ratios` maps its name to its times over those of the fastest, where it solved."""
+def draw(path, title, ratios, problems, dashed=()):
+    """Writes the profile of each solver: `ratios` maps its name to its times over those of the fastest, where it solved.
+
+    Solvers stand in the legend by the share that they solve, with it; those in `dashed` are drawn so. The axis takes all ratios up
+    to 1000; what took longer stands at its end.
+    """
+    slowest = max((max(values) for values in ratios.values() if values), default=1.0)
+    greatest = next((limit for limit in (10, 20, 50, 100, 200, 500) if slowest <= limit), 1000)
+    order = sorted(ratios, key=lambda name: (-len(ratios[name]), sorted(ratios[name])))
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif">',
              f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>', *_axes(title, greatest)]
-    for k, (name, values) in enumerate(ratios.items()):
-        colour = COLOURS[k % len(COLOURS)]
-        dash = ' stroke-dasharray="6 3"' if k >= len(COLOURS) else ""
-        parts.append(f'<polyline points="{_curve(sorted(values), problems, greatest)}" fill="none" stroke="{colour}" '
-                     f'stroke-width="2"{dash}/>')
-        y = TOP + 14 + 20 * k
-        parts.append(f'<line x1="{RIGHT + 14}" x2="{RIGHT + 38}" y1="{y - 4}" y2="{y - 4}" stroke="{colour}" stroke-width="2"{dash}/>')
-        parts.append(_text(RIGHT + 44, y, name, "start"))
+    colours = {name: COLOURS[k % len(COLOURS)] for group in (set(ratios) - set(dashed), set(dashed))
+               for k, name in enumerate(name for name in ratios if name in group)}
+    pitch = min(20.0, (BOTTOM - TOP) / max(len(order), 1))
+    for k, name in enumerate(order):
+        style = f'stroke="{colours[name]}"' + (' stroke-dasharray="5 3"' if name in dashed else "")
+        parts += _curve(sorted(ratios[name]), problems, greatest, style)
+        y = TOP + 14 + pitch * k
+        parts.append(f'<line x1="{RIGHT + 14}" x2="{RIGHT + 42}" y1="{y - 4:.1f}" y2="{y - 4:.1f}" stroke-width="2" {style}/>')
+        parts.append(_text(RIGHT + 86, y, f"{100 * len(ratios[name]) / problems:.0f} %", "end"))
+        parts.append(_text(RIGHT + 94, y, name, "start"))
     path.write_text("\n".join([*parts, "</svg>"]) + "\n")

@@ -8,8 +8,8 @@ each tolerance: `scree solve`, one thread, in turns, so that a busy machine trou
 when scree's judge finds a residual within the tolerance, within the time limit. The profile of a solver is the share of all
 problems that it solves within a factor of the time of the fastest. Writes profiles.csv, a plot for each tolerance, and
 prints a table. A peer is a program with the options and the JSON of `scree solve`; those that lie beside PROGRAM (Bullet's,
-and Siconos' where it is installed) join by themselves. Scenes take turns, so that a budget cuts all of them alike.
-Standard library only.
+and Siconos' where it is installed) join by themselves: those that solve the same model of friction. Scenes take turns, so that a
+budget cuts all of them alike. Standard library only.
 """
 
 import argparse
@@ -43,7 +43,12 @@ SCENES = {  # scene and the times [s] of its problems
 }
 BED_TIMES = (0.001, 0.005)
 SOLVERS = "pgs,asgs,jacobi,apgd,spg,admm,interior_point,semismooth_newton"
-PEERS = {"bullet": "bullet_solve", "siconos_admm": "siconos_solve --method admm", "siconos_nsgs": "siconos_solve --method nsgs"}
+PEERS = {  # by the model of friction that they solve; Bullet's is neither, and is judged by the smaller residual
+    "associated": ("bullet", "siconos_soclcp_nsgs", "siconos_soclcp_vi_fpp", "siconos_soclcp_vi_eg", "siconos_convexqp_pg",
+                   "siconos_convexqp_admm", "siconos_global_admm", "siconos_global_ipm"),
+    "coulomb": ("bullet", "siconos_nsgs", "siconos_admm", "siconos_aclmfp", "siconos_tfp", "siconos_vi_fpp", "siconos_vi_eg",
+                "siconos_nsn_ac"),
+}
 SHORT = 0.05  # [s]; a shorter solve is repeated, and the least time counts
 FIELDS = ("scene", "problem", "contacts", "solver", "tolerance [m/s]", "solved", "status", "iterations", "residual [m/s]",
           "seconds [s]")
@@ -161,8 +166,8 @@ def report(rows, folder):
     print(f"\n| tolerance [m/s] | solver | fastest | within 2x | within 10x | solved |\n|{'---|' * 6}")
     for tolerance in TOLERANCES:
         ratios, problems = ratios_of(rows, tolerance)
-        profile_plot.draw(folder / f"profile_{tolerance:.0e}.svg", f"{problems} contact problems to {tolerance:.0e} m/s",
-                          ratios, problems)
+        profile_plot.draw(folder / f"profile_{tolerance:.0e}.svg", f"{problems} contact problems to {tolerance:g} m/s",
+                          ratios, problems, [name for name in ratios if name.split("_")[0] in ("bullet", "siconos")])
         for solver, values in ratios.items():
             shares = [sum(v <= factor for v in values) / problems for factor in (1.0, 2.0, 10.0, float("inf"))]
             print(f"| {tolerance:.0e} | `{solver}` | " + " | ".join(f"{100 * s:.0f} %" for s in shares) + " |")
@@ -175,6 +180,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="for runs, problems, table and plots; runs found there are kept")
     parser.add_argument("--bed", type=pathlib.Path, action="append", default=[], help="a bed file, see scenes/bed.toml")
     parser.add_argument("--solvers", default=SOLVERS, help="of scree")
+    parser.add_argument("--friction", choices=PEERS, default="associated", help="the model that all solve, and are judged by")
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=COMMAND", help="another program's solver")
     parser.add_argument("--no-peers", action="store_true", help="without those that lie beside the program")
     parser.add_argument("--scenes", help=f"some of {', '.join(SCENES)}")
@@ -192,11 +198,13 @@ def main():
         with open(wanted.folder / "profiles.csv", newline="") as file:
             return report(list(csv.DictReader(file)), wanted.folder)
     print(f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}", flush=True)
-    commands = {name: [wanted.program, "solve", "--solver", name] for name in wanted.solvers.split(",") if name}
+    commands = {name: [wanted.program, "solve", "--friction", wanted.friction, "--solver", name]
+                for name in wanted.solvers.split(",") if name}
     beside = pathlib.Path(wanted.program).resolve().parent
-    for name, command in {} if wanted.no_peers else PEERS.items():
-        if (beside / command.split()[0]).exists():
-            commands[name] = [str(beside / command.split()[0]), *command.split()[1:]]
+    for name in () if wanted.no_peers else PEERS[wanted.friction]:
+        program, _, method = name.partition("_")
+        if (beside / f"{program}_solve").exists():
+            commands[name] = [str(beside / f"{program}_solve"), *(["--method", method] if method else [])]
     commands |= {peer.split("=", 1)[0]: peer.split("=", 1)[1].split() for peer in wanted.peer}
     report(measure(all_problems(wanted), commands, wanted), wanted.folder)
 

@@ -1,6 +1,7 @@
 // Time and iterations to stated residuals, for every solver, from zero and from the guess of a run.
 //
 //     time_to_residual [--only=NAME,...] [--limit=N] [--no-map] LABEL=FILE[,FILE...] ...
+//     time_to_residual --events --only=NAME [--warm] [--limit=N] FILE
 //
 // A FILE is a bed (.txt), solved from zero, or a problem that `scree run --record-ccp` wrote (.h5), solved from zero and
 // from its guess. The files of a label are averaged. Solvers are those of the plugin folder with their defaults, and apgd
@@ -8,7 +9,8 @@
 // iterations (4000).
 //
 // To a residual: one solve with it as tolerance, the least of three if short. To the natural map: the same with the largest
-// tolerance found, by interpolation, at which the map is small enough. One thread.
+// tolerance found, by interpolation, at which the map is small enough. One thread. --events says what happens as it happens, for
+// time_table.py, which ends what takes too long.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,12 +38,17 @@ constexpr std::array kResiduals{1e-2, 1e-3, 1e-4};  // [m/s]
 constexpr double kMap = 1e-4;                       // [1]
 constexpr int kMapTries = 6;
 constexpr double kShort = 0.5;  // solves of less are repeated [s]
+constexpr double kLong = 4.0;   // of more the first answer to the natural map is taken [s]
 
 struct Settings {
   std::vector<std::string> only;
   int limit = 4000;
-  bool map = true;
+  bool map = true, events = false, warm = false;
 };
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A solver as asked for.
 struct Method {
@@ -114,9 +121,11 @@ class Trial {
     Row row;
     for (std::size_t k = 0; k < kResiduals.size(); ++k) {
       row[k] = solve(kResiduals[k]);
+      if (settings_.events) say(fmt::format("{:g}", kResiduals[k]), row[k]);
       if (!row[k]) return row;
     }
     if (settings_.map) row.back() = solve_for_map();
+    if (settings_.events && settings_.map && !row.back()) say("map", row.back());
     return row;
   }
 
@@ -130,15 +139,38 @@ class Trial {
       SolveContext context;
       context.tolerance = tolerance;
       context.max_iterations = settings_.limit;
-      const auto start = std::chrono::steady_clock::now();
-      const SolveSummary summary = solver_->solve(problem_, context, gamma_);
-      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-      if (summary.status != SolveStatus::converged) return std::nullopt;
-      cost = {static_cast<double>(summary.iterations), k == 0 ? took.count() : std::min(cost.seconds, took.count())};
-      spent += took.count();
+      const auto start = Clock::now();
+      if (settings_.events) watch(context, start);
+      summary_ = solver_->solve(problem_, context, gamma_);
+      const double took = seconds_since(start);
+      if (summary_.status != SolveStatus::converged) return std::nullopt;
+      cost = {static_cast<double>(summary_.iterations), k == 0 ? took : std::min(cost.seconds, took)};
+      spent += took;
     }
     map_of_[tolerance] = natural_map(delassus_, gamma_);
     return cost;
+  }
+
+  // Says that a solve begins, and about once a second how far it is.
+  static void watch(SolveContext& context, Clock::time_point start) {
+    fmt::print("begin\n");
+    std::fflush(stdout);
+    context.on_iteration = [start, least = 1e300, next = 1.0](const IterationReport& now) mutable {
+      if (now.residual >= 0.0) least = std::min(least, now.residual);
+      if (seconds_since(start) < next || least == 1e300) return;
+      next = seconds_since(start) + 1.0;
+      fmt::print("reached {:.3g}\n", least);
+      std::fflush(stdout);
+    };
+  }
+
+  void say(const std::string& target, const std::optional<Cost>& cost) const {
+    if (cost) {
+      fmt::print("done {} {:.0f} {:.5g}\n", target, cost->iterations, cost->seconds);
+    } else {
+      fmt::print("missed {} {} {:.3g}\n", target, to_string(summary_.status), summary_.residual);
+    }
+    std::fflush(stdout);
   }
 
   std::optional<Cost> solve_for_map() {
@@ -164,6 +196,8 @@ class Trial {
       const std::optional<Cost> cost = solve(next);
       if (!cost) break;
       if (map_of_.at(next) <= kMap && (!best || cost->iterations <= best->iterations)) best = cost;
+      if (best && settings_.events) say("map", best);
+      if (best && best->seconds > kLong) break;
     }
     return best;
   }
@@ -174,6 +208,7 @@ class Trial {
   std::unique_ptr<Plugin> plugin_;
   CcpSolver* solver_ = nullptr;
   DelassusOperator delassus_;
+  SolveSummary summary_;
   std::vector<double> gamma_;
   std::map<double, double> map_of_;  ///< natural map of the answer, by tolerance
 };
@@ -229,6 +264,15 @@ void measure(const PluginHost& host, const Settings& settings, const std::string
   }
 }
 
+// One method on one problem, told line by line.
+void tell(const PluginHost& host, const Settings& settings, const std::string& file) {
+  const Problem problem = read(file);
+  fmt::print("contacts {}\n", problem.problem().contacts.size());
+  std::vector<double> guess;
+  if (settings.warm && problem.record) guess = problem.record->guess;
+  Trial{host, methods_of(host, settings).front(), problem.problem(), guess, settings}.run();
+}
+
 int run(const std::vector<std::string>& arguments) {
   PluginHost host;
   const char* const folder = std::getenv("SCREE_PLUGIN_PATH");
@@ -239,6 +283,12 @@ int run(const std::vector<std::string>& arguments) {
       settings.only = split(argument.substr(7), ',');
     } else if (argument == "--no-map") {
       settings.map = false;
+    } else if (argument == "--events") {
+      settings.events = true;
+    } else if (argument == "--warm") {
+      settings.warm = true;
+    } else if (settings.events && !argument.starts_with("--")) {
+      tell(host, settings, argument);
     } else if (argument.starts_with("--limit=")) {
       settings.limit = std::stoi(argument.substr(8));
     } else {

@@ -15,7 +15,7 @@ std::uint64_t steps_between(double interval, double time_step) {
 void SeriesTable::open(const std::filesystem::path& file) {
   std::vector<CsvColumn> header;
   for (const SeriesColumn& column : columns_) header.push_back({column.name, column.unit});
-  file_.emplace(file, header);
+  file_ = std::make_unique<CsvWriter>(file, header);
 }
 
 void SeriesTable::add(std::span<const double> row) {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,7 +54,7 @@ class SeriesTable {
 
   std::vector<SeriesColumn> columns_;
   std::vector<double> values_;  // row by row
-  std::optional<CsvWriter> file_;
+  std::unique_ptr<CsvWriter> file_;
 };
 
 }  // namespace scree

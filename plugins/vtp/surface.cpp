@@ -157,13 +157,16 @@ void append_primitive(const ShapeSet& shapes, const Primitive& p, const SurfaceO
 
 }  // namespace
 
-void append_surface(const ShapeSet& shapes, const Shape& shape, const Pose& body, const SurfaceOptions& options,
+void append_surface(const ShapeSet& shapes, const Primitive& primitive, const Pose& body, const SurfaceOptions& options,
                     Surface& out) {
   Builder build{options, out};
-  for (const Primitive& primitive : shapes.primitives(shape)) {
-    build.place(body * primitive.local);
-    append_primitive(shapes, primitive, options, build);
-  }
+  build.place(body * primitive.local);
+  append_primitive(shapes, primitive, options, build);
+}
+
+void append_surface(const ShapeSet& shapes, const Shape& shape, const Pose& body, const SurfaceOptions& options,
+                    Surface& out) {
+  for (const Primitive& primitive : shapes.primitives(shape)) append_surface(shapes, primitive, body, options, out);
 }
 
 }  // namespace scree

@@ -25,4 +25,8 @@ struct SurfaceOptions {
 void append_surface(const ShapeSet& shapes, const Shape& shape, const Pose& body, const SurfaceOptions& options,
                     Surface& out);
 
+/// The same for one primitive of a shape.
+void append_surface(const ShapeSet& shapes, const Primitive& primitive, const Pose& body, const SurfaceOptions& options,
+                    Surface& out);
+
 }  // namespace scree

@@ -16,6 +16,7 @@ SCENE = """
 [simulation]
 end_time = 100.0
 time_step = {step}
+allow_overlap = {allow_overlap}
 [time_stepper]
 type = "dvi"
 recovery_speed = {recovery}
@@ -74,7 +75,8 @@ class Scree:
         drum = self.drum
         frames = f'[[observer]]\ntype = "vtk"\nwalls = false\ninterval = {interval!r}\n' if interval else ""
         path.write_text(SCENE.format(
-            step=TIME_STEP, recovery=self.options["recovery"], solver=self.options["solver"], density=grains.DENSITY,
+            step=self.options.get("step", TIME_STEP), allow_overlap=self.options.get("allow_overlap", "false"),
+            recovery=self.options["recovery"], solver=self.options["solver"], density=grains.DENSITY,
             friction=grains.FRICTION, bed=self.bed, down=f"0.0, -{grains.GRAVITY}, 0.0" if drum else f"0.0, 0.0, -{grains.GRAVITY}",
             walls=DRUM.format(**vars(drum)) if drum else 'walls = "grain"', frames=frames))
 

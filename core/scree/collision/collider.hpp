@@ -61,7 +61,8 @@ struct BodyPair {
 /// Who may touch whom before anything has moved far; see StepServices::neighbours().
 struct NeighbourView {
   std::span<const BodyPair> balls;  ///< pairs of bodies that are one sphere each, sorted
-  std::size_t others = 0;           ///< pairs of colliders with other shapes, which neighbour_contacts() looks at
+  /// The bodies of all other pairs, in order, whose poses neighbour_contacts() reads; empty when there are no such pairs.
+  std::span<const BodyIndex> others;
 };
 
 }  // namespace scree

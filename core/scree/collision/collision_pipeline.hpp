@@ -115,9 +115,10 @@ class CollisionPipeline {
 
   std::vector<BodyPair> ball_neighbours_;
   std::vector<ColliderPair> other_neighbours_;
-  std::vector<ColliderIndex> followed_;  // the colliders of those
-  bool plain_ = false;                   ///< all are spheres, or planes that do not turn, and may meet all
-  bool large_ = false;                   ///< buffers are freed as soon as nobody reads them any more
+  std::vector<ColliderIndex> followed_;     // the colliders of those
+  std::vector<BodyIndex> followed_bodies_;  // and their bodies
+  bool plain_ = false;                      ///< all are spheres, or planes that do not turn, and may meet all
+  bool large_ = false;                      ///< buffers are freed as soon as nobody reads them any more
 };
 
 }  // namespace scree

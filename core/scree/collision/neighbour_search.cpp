@@ -36,7 +36,7 @@ NeighbourView CollisionPipeline::find_neighbours(const BodyView& bodies, double 
     part_neighbours(bodies, {pairs_.data() + sorter_.begin(chunk_begin_[k]), chunk_pairs_[k]});
   }
   drop_distant_neighbours();
-  return {ball_neighbours_, other_neighbours_.size()};
+  return {ball_neighbours_, followed_bodies_};
 }
 
 /// Adds pairs of two bodies that are one ball each to the one list, and all other pairs to the other.
@@ -77,6 +77,11 @@ void CollisionPipeline::drop_distant_neighbours() {
   for (const ColliderPair& pair : other_neighbours_) followed_.insert(followed_.end(), {pair.a, pair.b});
   std::ranges::sort(followed_);
   followed_.erase(std::unique(followed_.begin(), followed_.end()), followed_.end());
+  followed_bodies_.clear();
+  for (const ColliderIndex k : followed_) {
+    // Colliders are in order of bodies.
+    if (followed_bodies_.empty() || followed_bodies_.back() != view.body[k]) followed_bodies_.push_back(view.body[k]);
+  }
 }
 
 /// The contacts of other_neighbours_, chunk by chunk of kPairsPerChunk.
