@@ -1,0 +1,290 @@
+#include "dem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "scree/base/error.hpp"
+#include "scree/interfaces/plugin_library.hpp"
+#include "scree/interfaces/scene_services.hpp"
+#include "scree/model/material.hpp"
+#include "scree/parallel/executor.hpp"
+#include "scree/state/state_io.hpp"
+
+namespace scree {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+/// Bodies that touch drift apart in memory as they move; after so many outer steps they are sorted again.
+constexpr std::uint64_t kStepsBetweenSorts = 100;
+/// Part of the smallest radius: of a bed at rest as cheap as a smaller one, of grains in motion found to be near the best.
+constexpr double kSkin = 0.2;
+
+}  // namespace
+
+Dem::Dem(const Options& options)
+    : Dem{DemOptions{.sub_step = options.number("sub_step"),
+                     .force_step = options.boolean("force_step"),
+                     .skin = options.number("skin"),
+                     .at_contact_point = options.text("lever") == "contact_point"}} {}
+
+std::vector<Parameter> Dem::parameters() {
+  return {
+      Parameter::number("sub_step", "s",
+                        "step of the integration, made a whole part of the outer one; 0: as long as stable")
+          .by_default(0.0)
+          .at_least(0.0),
+      Parameter::boolean("force_step", "take sub_step even where the contact law calls it too long").by_default(false),
+      Parameter::number("skin", "m", "pairs nearer than this are neighbours; 0: a fifth of the smallest radius")
+          .by_default(0.0)
+          .at_least(0.0),
+      Parameter::choice("lever", {"radius", "contact_point"},
+                        "forces act at each body's undeformed surface, or midway between the two surfaces, which keeps "
+                        "the angular momentum exactly")
+          .by_default("radius"),
+  };
+}
+
+void Dem::setup(SceneServices& services) { scene_ = &services; }
+
+StepSummary Dem::step(StepServices& services, const BodyState& bodies, double time, double dt) {
+  const ContactLaw* law = services.contact_law();
+  if (law == nullptr) throw Error{ErrorKind::usage, "time_stepper:dem needs a [contact_law]"};
+  const Call call{services, bodies, *law, time, dt};
+  take_over(call);
+  choose_sub_step(call);
+  const bool steady = services.forces_are_steady();
+  unstored_ = dt;
+  dem::Motions work;
+  dem::ContactTally tally;
+  for (std::size_t k = 0; k <= sub_steps_; ++k) {
+    const dem::Stage stage = k == 0 ? dem::Stage::first : k == sub_steps_ ? dem::Stage::last : dem::Stage::middle;
+    if (k == 0 || !steady) ask_fields(call, time + static_cast<double>(k) * h_);
+    tally = ask_contacts(call, stage);
+    const dem::Motions moved = verlet_.advance(slots_, h_, stage, services.executor());
+    work.contact_work += moved.contact_work;
+    work.boundary_work += moved.boundary_work;
+    work.force_work += moved.force_work;
+    if (stage != dem::Stage::last) watch_drift(call, h_ * moved.fastest);
+  }
+  slots_.store(bodies, unstored_, services.executor());
+  StepSummary summary;
+  keep_results(call, tally, work, summary);
+  last_h_ = h_;
+  ++steps_since_sort_;
+  return summary;
+}
+
+/// Makes the columns those of the bodies of this step.
+void Dem::take_over(const Call& call) {
+  const BodyView& bodies = call.bodies.view;
+  balls_.set_layout(call.law.history_size(), call.law.resists_rolling());
+  const bool same = std::ranges::equal(ids_, bodies.id);
+  if (!same || slots_.size() != bodies.size()) follow_bodies(bodies);
+  if (!same || slots_.slot_of.size() != bodies.size() || steps_since_sort_ >= kStepsBetweenSorts) {
+    slots_.sort(bodies);
+    steps_since_sort_ = 0;
+    list_is_good_ = false;
+  }
+  slots_.load(bodies, scene_->shapes(), call.services.executor());
+  balls_.begin_step();
+  shapes_.begin_step(bodies);
+  if (!list_is_good_) find_neighbours(call);
+}
+
+/// Tells what is kept of contacts which bodies are still there.
+void Dem::follow_bodies(const BodyView& bodies) {
+  std::vector<BodyIndex> index(ids_.size(), dem::BallContacts::kGone);
+  for (std::size_t old = 0, now = 0; old < ids_.size(); ++old) {
+    while (now < bodies.size() && bodies.id[now] < ids_[old]) ++now;
+    if (now < bodies.size() && bodies.id[now] == ids_[old]) index[old] = static_cast<BodyIndex>(now);
+  }
+  balls_.renumber(index);
+  ids_.assign(bodies.id.begin(), bodies.id.end());
+}
+
+double Dem::stable_step(const Call& call) const {
+  const BodyView& bodies = call.bodies.view;
+  struct Extremes {
+    double mass = std::numeric_limits<double>::infinity(), radius = mass, speed = 0.0;
+    bool moves = false, stands = false;
+  };
+  const std::size_t materials = call.services.materials().size();
+  std::vector<Extremes> of(materials);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Extremes& e = of[bodies.material[i]];
+    e.speed = std::max(e.speed, norm(bodies.velocity[i]));
+    if (bodies.motion[i] != Motion::dynamic) {
+      e.stands = true;
+      continue;
+    }
+    e.moves = true;
+    e.mass = std::min(e.mass, bodies.mass[i]);
+    e.radius = std::min(e.radius, bodies.radius[i]);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t a = 0; a < materials; ++a) {
+    if (!of[a].moves) continue;
+    for (std::uint32_t b = 0; b < materials; ++b) {
+      const auto ask = [&](double mass, double radius) {
+        least = std::min(least, call.law.stable_step({a, b, mass, radius, of[a].speed + of[b].speed}));
+      };
+      if (of[b].moves) {
+        ask(of[a].mass * of[b].mass / (of[a].mass + of[b].mass),
+            of[a].radius * of[b].radius / (of[a].radius + of[b].radius));
+      }
+      if (of[b].stands) ask(of[a].mass, of[a].radius);
+    }
+  }
+  return least;
+}
+
+void Dem::choose_sub_step(const Call& call) {
+  const double stable = stable_step(call), asked = options_.sub_step;
+  if (asked > stable * (1.0 + 1e-9) && !options_.force_step) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "time_stepper:dem: sub_step = %.4g s is longer than the %.4g s that the contact law calls stable for the "
+        "stiffest contact; take a shorter one, 0 for that, or force_step = true",
+        asked, stable);
+    throw Error{ErrorKind::usage, text};
+  }
+  const double longest = std::min(asked > 0.0 ? asked : stable, call.dt);
+  sub_steps_ = static_cast<std::size_t>(std::max(1.0, std::ceil(call.dt / longest - 1e-9)));
+  h_ = call.dt / static_cast<double>(sub_steps_);
+  if (told_ || !std::isfinite(stable)) return;
+  told_ = true;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "time_stepper:dem: %zu sub-steps of %.4g s in a step; the stiffest contact allows %.4g s; skin %.4g m",
+                sub_steps_, h_, stable, skin_);
+  scene_->log(text);
+}
+
+void Dem::find_neighbours(const Call& call) {
+  const BodyView& bodies = call.bodies.view;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.motion[i] == Motion::dynamic) least = std::min(least, bodies.radius[i]);
+  }
+  skin_ = options_.skin > 0.0 ? options_.skin : std::isfinite(least) ? kSkin * least : 0.0;
+  reach_ = std::isfinite(least) ? call.law.reach(0.5 * *std::ranges::max_element(bodies.radius)) : 0.0;
+  const NeighbourView found = call.services.neighbours(bodies, skin_ + reach_);
+  listed_.assign(found.others.begin(), found.others.end());
+  balls_.set_neighbours(slots_, found.balls);
+  list_is_good_ = true;
+  used_ = 0.0;
+  ++rebuilds_;
+}
+
+void Dem::ask_fields(const Call& call, double time) {
+  const std::size_t n = slots_.size();
+  field_force_.resize(n), field_torque_.resize(n);
+  if (time > call.time) {
+    slots_.store(call.bodies, h_, call.services.executor());
+    unstored_ = 0.0;
+  }
+  call.services.forces(call.bodies.view, time, {field_force_, field_torque_});
+  call.services.executor().for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      slots_.field[k] = {field_force_[slots_.body[k]], field_torque_[slots_.body[k]]};
+    }
+  });
+}
+
+dem::ContactTally Dem::ask_contacts(const Call& call, dem::Stage stage) {
+  const BodyView& bodies = call.bodies.view;
+  const dem::Evaluation evaluation{.law = &call.law,
+                                   .stage = stage,
+                                   .h = h_,
+                                   .last_h = last_h_,
+                                   .reach = reach_,
+                                   .materials = call.services.materials().size(),
+                                   .at_contact_point = options_.at_contact_point,
+                                   .history = call.law.history_size(),
+                                   .rolls = call.law.resists_rolling()};
+  dem::ContactTally tally = balls_.evaluate(slots_, evaluation, call.services.executor());
+  if (listed_.empty() && shapes_.empty()) return tally;
+  std::span<const Contact> found;
+  if (!listed_.empty()) {
+    slots_.store_poses(call.bodies, listed_);
+    found = call.services.neighbour_contacts(bodies, evaluation.reach);
+  }
+  tally += shapes_.evaluate(slots_, bodies, found, evaluation, call.services.executor());
+  return tally;
+}
+
+/// Two bodies that went half a skin each may meet.
+void Dem::watch_drift(const Call& call, double way) {
+  used_ += way;
+  if (2.0 * used_ <= skin_ || !std::isfinite(used_)) return;
+  slots_.store_poses(call.bodies, {});
+  find_neighbours(call);
+}
+
+void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const dem::Motions& work,
+                       StepSummary& summary) {
+  ball_records_.clear();
+  shape_records_.clear();
+  balls_.report(slots_, ball_records_);
+  shapes_.report(slots_, call.bodies.view, call.law.resists_rolling(), shape_records_);
+  if (shape_records_.size() == 0) {
+    std::swap(records_, ball_records_);
+  } else {
+    records_.merge(ball_records_, shape_records_);
+  }
+  summary.solve.status = SolveStatus::converged;
+  summary.solve.iterations = static_cast<int>(sub_steps_);
+  summary.contacts = tally.closed;
+  summary.mean_penetration = tally.closed > 0 ? tally.relative_overlap / static_cast<double>(tally.closed) : 0.0;
+  summary.max_penetration = tally.greatest_overlap;
+  summary.work = {.contact_loss = work.boundary_work - work.contact_work,
+                  .boundary_work = work.boundary_work,
+                  .force_work = work.force_work,
+                  .joint_work = 0.0};
+}
+
+void Dem::save(StateWriter& out) const {
+  std::vector<std::uint64_t> order;
+  for (const BodyIndex body : slots_.body) order.push_back(ids_[body]);
+  out.write("order", order);
+  out.write("steps_since_sort", steps_since_sort_);
+  out.write("sub_step", last_h_);
+  const std::size_t history = balls_.history_size();
+  out.write("history_size", std::uint64_t{history});
+  balls_.save(out, ids_);
+  shapes_.save(out, history);
+}
+
+void Dem::load(const StateReader& in) {
+  const std::vector<std::uint64_t> order = in.integers("order");
+  ids_.assign(order.begin(), order.end());
+  std::ranges::sort(ids_);
+  std::vector<BodyIndex> bodies;
+  for (const BodyId id : order)
+    bodies.push_back(static_cast<BodyIndex>(std::ranges::lower_bound(ids_, id) - ids_.begin()));
+  slots_.set_order(bodies);
+  steps_since_sort_ = in.integer("steps_since_sort");
+  last_h_ = in.number("sub_step");
+  const auto history = static_cast<std::size_t>(in.integer("history_size"));
+  balls_.set_layout(history, false);
+  balls_.load(in, ids_);
+  shapes_.load(in, history);
+  list_is_good_ = false;
+}
+
+}  // namespace scree
+
+namespace {
+
+void list(scree::PluginList& plugins) {
+  plugins.add<scree::TimeStepper, scree::Dem>(
+      "dem", "Discrete element method: soft contacts by a [contact_law], many short Verlet steps within an outer one.",
+      scree::Dem::parameters());
+}
+
+}  // namespace
+
+extern "C" SCREE_EXPORT const scree::PluginLibrary scree_plugin_library{scree::describe_library("dem", "1.0.0", &list)};

@@ -1,0 +1,258 @@
+#include "shape_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "scree/math/contact_frame.hpp"
+#include "scree/parallel/executor.hpp"
+#include "scree/state/state_io.hpp"
+
+namespace scree::dem {
+namespace {
+
+constexpr std::size_t kLanes = ContactBatch::kMost;
+/// A contact that goes on under another name turns by less than this from one sub-step to the next: 60 degrees.
+constexpr double kSameWay = 0.5;
+
+auto pair_of(const ContactKey& key) { return std::tie(key.a, key.b, key.primitive_a, key.primitive_b); }
+
+/// Radius of curvature where a body is touched, as far as a contact law asks for it [m]: of walls infinite.
+double radius_of(const Slots& slots, const BodyView& bodies, BodyIndex i) {
+  const double ball = slots.place[slots.slot_of[i]].radius;
+  if (ball > 0.0) return ball;
+  return bodies.motion[i] == Motion::dynamic ? bodies.radius[i] : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+/// Some of the active contacts on their way through the law.
+struct ShapeContacts::Work {
+  ContactBatch batch;
+  std::size_t first = 0;  // of them
+  std::array<double, kLanes> acting;
+  std::array<Arms, kLanes> arms;
+  std::array<double, kLanes> smaller;
+  ContactTally tally;
+};
+
+void ShapeContacts::begin_step(const BodyView& bodies) {
+  std::erase_if(entries_, [&](const Entry& e) {
+    return !e.touching || !std::ranges::binary_search(bodies.id, e.key.a) ||
+           !std::ranges::binary_search(bodies.id, e.key.b);
+  });
+  const auto index = [&](BodyId id) {
+    return static_cast<BodyIndex>(std::ranges::lower_bound(bodies.id, id) - bodies.id.begin());
+  };
+  for (Entry& e : entries_) {
+    e.impulse = e.moment = {};
+    e.contact.a = index(e.key.a), e.contact.b = index(e.key.b);
+  }
+}
+
+/// One walk through the entries and the contacts found now, both sorted by key.
+void ShapeContacts::match(const BodyView& bodies, std::span<const Contact> found) {
+  merged_.clear();
+  active_.clear();
+  std::size_t old = 0, group = 0;
+  const auto take = [&](Entry&& entry) {
+    if (!merged_.empty() && pair_of(merged_.back().key) != pair_of(entry.key)) {
+      inherit(group, merged_.size());
+      group = merged_.size();
+    }
+    merged_.push_back(std::move(entry));
+  };
+  const auto end_old = [&] {
+    // What touched until now keeps its history until inherit() has looked at it.
+    Entry entry = entries_[old++];
+    entry.is_new = entry.touching;  // just ended
+    entry.touching = false;
+    take(std::move(entry));
+  };
+  for (const Contact& c : found) {
+    const ContactKey key = contact_key(bodies, c);
+    while (old < entries_.size() && entries_[old].key < key) end_old();
+    if (old < entries_.size() && entries_[old].key == key) {
+      Entry entry = entries_[old++];
+      entry.is_new = !entry.touching;
+      entry.touching = true;
+      entry.contact = c;
+      take(std::move(entry));
+    } else {
+      Entry entry;
+      entry.key = key;
+      entry.contact = c;
+      entry.touching = true;
+      take(std::move(entry));
+    }
+  }
+  while (old < entries_.size()) end_old();
+  inherit(group, merged_.size());
+  std::swap(entries_, merged_);
+  for (std::uint32_t k = 0; k < entries_.size(); ++k) {
+    if (entries_[k].touching) active_.push_back(k);
+  }
+}
+
+/// Among the entries of one pair of primitives: a new contact goes on where one that has just ended left off.
+void ShapeContacts::inherit(std::size_t first, std::size_t last) {
+  for (std::size_t k = first; k < last; ++k) {
+    Entry& born = merged_[k];
+    if (!born.touching || !born.is_new) continue;
+    Entry* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = first; j < last; ++j) {
+      Entry& ended = merged_[j];
+      if (ended.touching || !ended.is_new || dot(ended.contact.normal, born.contact.normal) < kSameWay) continue;
+      const double distance = squared_norm(ended.contact.point - born.contact.point);
+      if (distance < least) least = distance, nearest = &ended;
+    }
+    if (nearest == nullptr) {
+      born.history = {};
+      continue;
+    }
+    born.history = nearest->history;
+    born.before = nearest->before;
+    born.is_new = false;
+    nearest->is_new = false;
+  }
+  for (std::size_t k = first; k < last; ++k) {
+    if (merged_[k].touching) continue;
+    merged_[k].is_new = false;
+    merged_[k].history = {};
+  }
+}
+
+ShapeContacts::Arms ShapeContacts::arms(const Slots& slots, const Contact& c, bool at_contact_point) {
+  // The undeformed surfaces lie half the overlap beyond the point between them.
+  const Vec3 sunk = (at_contact_point ? 0.0 : -0.5 * c.gap) * c.normal;
+  return {c.point + sunk - slots.place[slots.slot_of[c.a]].position,
+          c.point - sunk - slots.place[slots.slot_of[c.b]].position};
+}
+
+Vec3 ShapeContacts::surface_velocity(const Slots& slots, const BodyView& bodies, const Contact& c, const Arms& arms) {
+  const Twist &a = slots.twist[slots.slot_of[c.a]], &b = slots.twist[slots.slot_of[c.b]];
+  Vec3 v = b.linear + cross(b.angular, arms.b) - a.linear - cross(a.angular, arms.a);
+  if (bodies.surface_motion.empty()) return v;
+  const Twist belt_a = surface_motion(bodies, c.a), belt_b = surface_motion(bodies, c.b);
+  const Vec3 slip = belt_b.linear + cross(belt_b.angular, arms.b) - belt_a.linear - cross(belt_a.angular, arms.a);
+  // A belt moves in its own plane and does not push.
+  return v + (slip - dot(slip, c.normal) * c.normal);
+}
+
+void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Evaluation& e, Work& w) const {
+  ContactBatch& batch = w.batch;
+  batch.lead = 0.5 * e.h;
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const Entry& entry = entries_[active_[w.first + k]];
+    const Contact& c = entry.contact;
+    const Slot a = slots.slot_of[c.a], b = slots.slot_of[c.b];
+    const Inertia &ia = slots.inertia[a], &ib = slots.inertia[b];
+    w.arms[k] = arms(slots, c, e.at_contact_point);
+    const Vec3 v = surface_velocity(slots, bodies, c, w.arms[k]);
+    const double overlap = -c.gap, approach = -dot(v, c.normal);
+    const double ra = radius_of(slots, bodies, c.a), rb = radius_of(slots, bodies, c.b);
+    batch.overlap[k] = overlap;
+    batch.radius[k] = 1.0 / (1.0 / ra + 1.0 / rb);
+    batch.mass[k] = ia.dynamic && ib.dynamic ? ia.mass * ib.mass / (ia.mass + ib.mass) : ia.mass + ib.mass;
+    batch.normal.set(k, c.normal);
+    batch.velocity.set(k, v);
+    batch.spin.set(k, slots.twist[b].angular - slots.twist[a].angular);
+    batch.materials[k] = static_cast<std::uint32_t>(ia.material * e.materials + ib.material);
+    const double since = entry.is_new ? time_since(overlap, approach, e.h) : 0.0;
+    batch.ahead[k] = e.ahead(entry.is_new, since);
+    w.acting[k] = acting_part(e, entry.is_new, since, overlap, approach);
+    for (std::size_t j = 0; j < e.history; ++j) batch.history[j][k] = entry.history[j];
+    w.smaller[k] = std::min(ia.dynamic ? bodies.radius[c.a] : std::numeric_limits<double>::infinity(),
+                            ib.dynamic ? bodies.radius[c.b] : std::numeric_limits<double>::infinity());
+  }
+}
+
+void ShapeContacts::scatter(const Evaluation& e, Work& w) {
+  const double time = kick_time(e);
+  for (std::size_t k = 0; k < w.batch.count; ++k) {
+    Entry& entry = entries_[active_[w.first + k]];
+    const Vec3 force = w.acting[k] * w.batch.force[k];
+    const Vec3 torque = e.rolls ? w.acting[k] * w.batch.torque[k] : Vec3{};
+    on_a_[w.first + k] = {-force, cross(w.arms[k].a, -force) - torque};
+    on_b_[w.first + k] = {force, cross(w.arms[k].b, force) + torque};
+    if (entry.impulse == Vec3{} && (entry.is_new || e.stage == Stage::first)) entry.before = w.batch.velocity[k];
+    entry.impulse += time * force;
+    entry.moment += time * torque;
+    for (std::size_t j = 0; j < e.history; ++j) entry.history[j] = w.batch.history[j][k];
+    if (e.stage == Stage::last && w.batch.overlap[k] > 0.0) w.tally.add(w.batch.overlap[k], w.smaller[k]);
+  }
+}
+
+ContactTally ShapeContacts::evaluate(Slots& slots, const BodyView& bodies, std::span<const Contact> found,
+                                     const Evaluation& e, const Executor& executor) {
+  if (found.empty() && entries_.empty()) return {};
+  match(bodies, found);
+  on_a_.resize(active_.size()), on_b_.resize(active_.size());
+  tally_.assign(Executor::chunk_count(active_.size(), kLanes), ContactTally{});
+  executor.for_chunks(active_.size(), kLanes, [&](std::size_t first, std::size_t last) {
+    Work w;
+    w.first = first;
+    w.batch.count = last - first;
+    gather(slots, bodies, e, w);
+    e.law->forces(w.batch);
+    scatter(e, w);
+    tally_[first / kLanes] = w.tally;
+  });
+  ContactTally sum;
+  for (const ContactTally& tally : tally_) sum += tally;
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    const Contact& c = entries_[active_[k]].contact;
+    slots.wrench[slots.slot_of[c.a]] += on_a_[k];
+    slots.wrench[slots.slot_of[c.b]] += on_b_[k];
+  }
+  return sum;
+}
+
+void ShapeContacts::report(const Slots& slots, const BodyView& bodies, bool rolls, ContactRecords& out) const {
+  for (const Entry& entry : entries_) {
+    if (entry.impulse == Vec3{} && entry.contact.gap > 0.0) continue;  // within reach of a law, but not held
+    const ContactFrame frame = contact_frame(entry.contact.normal);
+    const Vec3 after = surface_velocity(slots, bodies, entry.contact, arms(slots, entry.contact, false));
+    out.contact.push_back(entry.contact);
+    out.impulse.push_back(to_contact(frame, entry.impulse));
+    if (rolls) out.angular_impulse.push_back(to_contact(frame, entry.moment));
+    out.before.push_back(to_contact(frame, entry.before));
+    out.after.push_back(to_contact(frame, after));
+  }
+}
+
+void ShapeContacts::save(StateWriter& out, std::size_t history) const {
+  std::vector<std::uint64_t> keys;
+  std::vector<double> values;
+  for (const Entry& e : entries_) {
+    if (!e.touching) continue;
+    keys.insert(keys.end(), {e.key.a, e.key.b, e.key.primitive_a, e.key.primitive_b, e.key.feature});
+    values.insert(values.end(), e.history.begin(), e.history.begin() + static_cast<std::ptrdiff_t>(history));
+    const Vec3 &point = e.contact.point, &normal = e.contact.normal;
+    values.insert(values.end(), {point.x, point.y, point.z, normal.x, normal.y, normal.z});
+  }
+  out.write("shape_keys", keys);
+  out.write("shape_history", values);
+}
+
+void ShapeContacts::load(const StateReader& in, std::size_t history) {
+  const std::vector<std::uint64_t> keys = in.integers("shape_keys");
+  const std::vector<double> values = in.doubles("shape_history");
+  entries_.assign(keys.size() / 5, Entry{});
+  const double* value = values.data();
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    Entry& e = entries_[k];
+    const std::uint64_t* const key = keys.data() + 5 * k;
+    e.key = {key[0], key[1], static_cast<std::uint32_t>(key[2]), static_cast<std::uint32_t>(key[3]), key[4]};
+    e.touching = true;
+    std::copy_n(value, history, e.history.begin());
+    value += history;
+    e.contact.point = {value[0], value[1], value[2]};
+    e.contact.normal = {value[3], value[4], value[5]};
+    value += 6;
+  }
+}
+
+}  // namespace scree::dem

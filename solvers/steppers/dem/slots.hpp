@@ -1,0 +1,92 @@
+// Slots: the bodies of a scene in the order in which they lie in space, with what a sub-step reads and writes of them.
+//
+// The order is that of a Morton curve, so that bodies that touch are close in memory. A slot keeps its body until the next
+// sort().
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scree/math/twist.hpp"
+#include "scree/model/body.hpp"
+
+namespace scree {
+class Executor;
+class ShapeSet;
+}  // namespace scree
+
+namespace scree::dem {
+
+/// Number of a body in the order of space.
+using Slot = std::uint32_t;
+
+/// What the search for contacts reads.
+struct alignas(32) Place {
+  Vec3 position;        ///< centre of mass [m]
+  double radius = 0.0;  ///< of a ball [m]
+};
+
+/// Force [N] and torque about the centre of mass [N m], world.
+struct Wrench {
+  Vec3 force;
+  Vec3 torque;
+
+  Wrench& operator+=(const Wrench& o) {
+    force += o.force;
+    torque += o.torque;
+    return *this;
+  }
+};
+
+/// What does not change in a step.
+struct Inertia {
+  double inverse_mass = 0.0;    ///< [1/kg]; 0 where forces do not move a body
+  double inverse_moment = 0.0;  ///< of bodies whose three moments are equal [1/(kg m2)]; else 0
+  double mass = 0.0;            ///< [kg]; 0 where forces do not move a body
+  std::uint32_t material = 0;   ///< index into Materials
+  bool dynamic = false;
+};
+
+/// A body whose orientation matters: its shape is no ball. Dynamic ones keep their angular momentum.
+struct Turning {
+  Slot slot = 0;
+  Quat orientation;      ///< body to world [1]
+  Vec3 momentum;         ///< angular, predicted for the time of the forces [kg m2/s], world
+  Vec3 torque;           ///< of the last evaluation [N m], world
+  Vec3 inverse_inertia;  ///< principal [1/(kg m2)]; zero where torques do not turn the body
+};
+
+/// Columns by slot, all of one length.
+struct Slots {
+  std::vector<BodyIndex> body;
+  std::vector<Slot> slot_of;  ///< by body
+  std::vector<Place> place;
+  std::vector<Twist> twist;    ///< predicted for the time of the forces [m/s], [rad/s]
+  std::vector<Twist> old;      ///< accelerations at the last evaluation [m/s2], [rad/s2]
+  std::vector<Wrench> wrench;  ///< of contacts
+  std::vector<Wrench> field;   ///< of force fields
+  std::vector<Inertia> inertia;
+  std::vector<Turning> turning;  ///< by slot
+  std::vector<double> reach;     ///< by entry of turning: farthest point from the centre of mass [m]
+
+  [[nodiscard]] std::size_t size() const { return body.size(); }
+
+  /// Numbers the bodies along the curve.
+  void sort(const BodyView& bodies);
+  /// Takes an order that sort() gave before: the body of each slot.
+  void set_order(std::span<const BodyIndex> bodies);
+  /// Fills the columns from the bodies.
+  void load(const BodyView& bodies, const ShapeSet& shapes, const Executor& executor);
+  /// Writes positions, orientations and velocities back. `dt` [s] since load(): balls turn by their mean angular velocity.
+  void store(const BodyState& bodies, double dt, const Executor& executor) const;
+  /// Writes the poses of `some` bodies, which turn, or all positions, where `some` is empty.
+  void store_poses(const BodyState& bodies, std::span<const BodyIndex> some) const;
+};
+
+/// Angular velocity of a turning body [rad/s], world.
+[[nodiscard]] inline Vec3 angular_velocity(const Quat& q, const Vec3& inverse_inertia, const Vec3& momentum) {
+  return rotate(q, hadamard(inverse_inertia, rotate_back(q, momentum)));
+}
+
+}  // namespace scree::dem

@@ -1,0 +1,112 @@
+#include "verlet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scree/parallel/executor.hpp"
+
+namespace scree::dem {
+namespace {
+
+/// Work of a force f over the kick(s) about the present time, whose velocity is v and acceleration a: an impulse times the mean of
+/// the velocities before and after it.
+struct KickWork {
+  double impulse_time = 0.0;  ///< [s]
+  double shift = 0.0;         ///< from the present velocity to the mean one, in accelerations [s]
+};
+
+KickWork kick_work(double h, Stage stage) {
+  switch (stage) {
+    case Stage::first:
+      return {0.5 * h, 0.25 * h};
+    case Stage::last:
+      return {0.5 * h, -0.25 * h};
+    case Stage::middle:
+      break;
+  }
+  return {h, 0.0};
+}
+
+}  // namespace
+
+void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, std::size_t last, Motions& out) const {
+  const KickWork work = kick_work(h, stage);
+  const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
+  double fastest2 = 0.0;
+  for (std::size_t k = first; k < last; ++k) {
+    Twist& twist = slots.twist[k];
+    Place& place = slots.place[k];
+    const Wrench& contact = slots.wrench[k];
+    const Inertia& body = slots.inertia[k];
+    if (!body.dynamic) {
+      out.boundary_work -= work.impulse_time * (dot(contact.force, twist.linear) + dot(contact.torque, twist.angular));
+      place.position += ahead * twist.linear;
+      fastest2 = std::max(fastest2, squared_norm(twist.linear));
+      continue;
+    }
+    const Wrench& field = slots.field[k];
+    Twist& old = slots.old[k];
+    const Vec3 a = body.inverse_mass * (contact.force + field.force);
+    const Vec3 alpha = body.inverse_moment * (contact.torque + field.torque);
+    const Vec3 v = twist.linear + correct * (a - old.linear), w = twist.angular + correct * (alpha - old.angular);
+    const Vec3 mean = v + work.shift * a, mean_spin = w + work.shift * alpha;
+    out.contact_work += work.impulse_time * (dot(contact.force, mean) + dot(contact.torque, mean_spin));
+    out.force_work += work.impulse_time * (dot(field.force, mean) + dot(field.torque, mean_spin));
+    place.position += ahead * (v + (0.5 * ahead) * a);
+    twist = {v + ahead * a, w + ahead * alpha};
+    old = {a, alpha};
+    fastest2 = std::max(fastest2, squared_norm(twist.linear));
+  }
+  out.fastest = std::max(out.fastest, std::sqrt(fastest2));
+}
+
+// After move_chunk(), which left alone the angular part of these bodies but for their work, which it counted with the angular
+// velocity predicted.
+void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, std::size_t last, Motions& out) const {
+  const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
+  for (std::size_t k = first; k < last; ++k) {
+    Turning& t = slots.turning[k];
+    Vec3& spin = slots.twist[t.slot].angular;
+    Quat& q = t.orientation;
+    if (slots.inertia[t.slot].dynamic) {
+      const Vec3 torque = slots.wrench[t.slot].torque + slots.field[t.slot].torque;
+      t.momentum += correct * (torque - t.torque);
+      const Vec3 half = t.momentum + (0.5 * ahead) * torque;
+      if (ahead > 0.0) {
+        const Vec3 w = angular_velocity(q, t.inverse_inertia, half);
+        const Quat middle = normalized(from_rotation_vector((0.5 * ahead) * w) * q);
+        const Vec3 w_middle = angular_velocity(middle, t.inverse_inertia, half);
+        q = normalized(from_rotation_vector(ahead * w_middle) * q);
+      }
+      t.momentum = half + (0.5 * ahead) * torque;
+      t.torque = torque;
+      spin = angular_velocity(q, t.inverse_inertia, t.momentum);
+    } else if (spin != Vec3{} && ahead > 0.0) {
+      q = normalized(from_rotation_vector(ahead * spin) * q);
+    }
+    const double turn = norm(spin);
+    if (turn > 0.0) out.fastest = std::max(out.fastest, norm(slots.twist[t.slot].linear) + turn * slots.reach[k]);
+  }
+}
+
+Motions Verlet::advance(Slots& slots, double h, Stage stage, const Executor& executor) {
+  const std::size_t chunks = Executor::chunk_count(slots.size(), kChunk),
+                    turning = Executor::chunk_count(slots.turning.size(), kChunk);
+  partial_.assign(chunks + turning, Motions{});
+  executor.for_chunks(slots.size(), kChunk, [&](std::size_t first, std::size_t last) {
+    move_chunk(slots, h, stage, first, last, partial_[first / kChunk]);
+  });
+  executor.for_chunks(slots.turning.size(), kChunk, [&](std::size_t first, std::size_t last) {
+    turn_chunk(slots, h, stage, first, last, partial_[chunks + first / kChunk]);
+  });
+  Motions sum;
+  for (const Motions& part : partial_) {
+    sum.contact_work += part.contact_work;
+    sum.boundary_work += part.boundary_work;
+    sum.force_work += part.force_work;
+    sum.fastest = std::max(sum.fastest, part.fastest);
+  }
+  return sum;
+}
+
+}  // namespace scree::dem
