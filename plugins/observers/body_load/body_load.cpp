@@ -58,6 +58,21 @@ void BodyLoad::setup(SceneServices& services, const std::filesystem::path& resul
   if (!results.empty()) table_.open(results / (stem_ + ".csv"));
 }
 
+// Of a body that is met first: its velocity without what contacts gave it in this step. A step of other forces is left out.
+Twist BodyLoad::velocity_before(const Observation& now, BodyIndex body) const {
+  const BodyView& bodies = now.bodies;
+  const Pose pose = pose_at_contacts(bodies, body, now.contacts.age);
+  Vec3 impulse, angular;
+  followed_.visit(now.contacts, [&](const BodyContact& c) {
+    if (c.self != body) return;
+    const WorldImpulse given = impulse_on_b(now.contacts, c.contact);
+    impulse += c.sign * given.linear;
+    angular += c.sign * (cross(now.contacts.contact[c.contact].point - pose.position, given.linear) + given.angular);
+  });
+  return {bodies.velocity[body] - inverse_mass(bodies, body) * impulse,
+          bodies.angular_velocity[body] - inverse_inertia(bodies, body) * angular};
+}
+
 // Velocities are means over the step, so that work is exactly what changes the kinetic energy of a free body. What moves as told
 // has the same velocity from the beginning to the end.
 void BodyLoad::find_motions(const Observation& now) {
@@ -71,7 +86,8 @@ void BodyLoad::find_motions(const Observation& now) {
       continue;
     }
     const Twist velocity{bodies.velocity[i], bodies.angular_velocity[i]};
-    const bool free = bodies.motion[i] == Motion::dynamic && state.seen;
+    const bool free = bodies.motion[i] == Motion::dynamic;
+    if (free && !state.seen) state.velocity = velocity_before(now, i);
     const double spin = norm(velocity.angular);
     if (spin > 0.0) state.axis = velocity.angular / spin;
     BodyMotion& motion = motions_[k];

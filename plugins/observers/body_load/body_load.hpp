@@ -41,6 +41,7 @@ class BodyLoad final : public Observer {
   };
 
   void find_motions(const Observation& now);
+  [[nodiscard]] Twist velocity_before(const Observation& now, BodyIndex body) const;
   void end_interval(double time);
   void write_figures() const;
 

@@ -142,6 +142,18 @@ TEST_F(BodyLoadTest, work_on_a_free_body_is_its_kinetic_energy) {
   EXPECT_NEAR(load.total(0).work, gained, 1e-14);
 }
 
+// A body that touches in the first step that is seen: its velocity before follows from its impulses.
+TEST_F(BodyLoadTest, work_is_whole_from_the_first_step_on) {
+  BodyLoad load = make("bodies = ['ball']\ninterval = 0.0");
+  load.setup(services, {});
+  const double m = bodies.mass[1];
+  bodies.velocity[1] = {0.5, 0, 0};
+  touch({0, 0, 0.1}, {0, 0, 1}, {-0.2, 0, 0});
+  look(load, 1);
+  const double v0 = 0.5 + 0.2 / m;
+  EXPECT_NEAR(load.total(0).work, 0.5 * m * (0.25 - v0 * v0), 1e-15);
+}
+
 // Contacts found at the beginning of the step: the ball has moved on since, its torque has not.
 TEST_F(BodyLoadTest, levers_are_those_of_the_moment_of_contact) {
   BodyLoad load = make("bodies = ['ball']\ninterval = 0.0");

@@ -66,7 +66,8 @@ std::vector<Mark> marks_of(const Options& options, const Projection& projection)
 }  // namespace
 
 PictureObserver::PictureObserver(const Options& options)
-    : view_{projection_of(options), window_of(options), options.number("velocity_arrows")},
+    : options_{options},
+      view_{projection_of(options), window_of(options), {}, options.number("velocity_arrows")},
       width_{static_cast<int>(options.integer("width"))},
       at_end_{options.boolean("at_end")},
       svg_{options.boolean("svg")},
@@ -83,7 +84,7 @@ std::vector<Parameter> PictureObserver::parameters() {
                                   .at_least(1)
                                   .by_default(1),
                               Parameter::text("label", "written at its beginning").by_default("")};
-  return {
+  std::vector<Parameter> list{
       Parameter::choice("view", {"xy", "xz", "yz"}, "world axes that point to the right and up").by_default("xy"),
       Parameter::vector("right", "1", "unit vector that points to the right, instead of `view`").optional(),
       Parameter::vector("up", "1", "unit vector that points up, at a right angle to `right`").optional(),
@@ -106,12 +107,15 @@ std::vector<Parameter> PictureObserver::parameters() {
           .by_default(0.0),
       Parameter::tables("line", std::move(line), "lines that mark places, such as bins").optional(),
   };
+  for (Parameter& parameter : CutView::parameters()) list.push_back(std::move(parameter));
+  return list;
 }
 
 void PictureObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   name_ = services.part_name().empty() ? "scene" : services.part_name();
   stem_ = "picture_" + lower_snake(name_);
   results_ = results;
+  view_.cut.setup(options_, services);
   words_.emplace(SceneWords{services.shapes(), services.materials(),
                             labels_ ? services.body_names() : std::vector<std::string>{}});
   if (interval_) {

@@ -23,6 +23,7 @@ class PictureObserver final : public Observer {
  private:
   void write(const Observation& now, const std::string& stem) const;
 
+  Options options_;
   View view_;
   int width_;                       // [px]
   std::optional<double> interval_;  // [s]

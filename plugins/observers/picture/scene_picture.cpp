@@ -21,12 +21,16 @@ class SceneBuilder {
       : bodies_{now.bodies}, words_{words}, view_{view}, picture_{picture}, counts_(words.materials.size()) {}
 
   void add(std::size_t i) {
+    if (view_.cut.hides(bodies_.id[i])) return;
     const Shape& shape = words_.shapes.shapes()[bodies_.shape[i]];
     const Pose pose{bodies_.position[i], bodies_.orientation[i]};
     parts_.clear();
     append_silhouettes(words_.shapes, shape, pose, view_.projection, parts_);
+    const bool wall = view_.cut.is_wall(bodies_, static_cast<BodyIndex>(i));
+    if (!wall && !view_.cut.keeps(bodies_.position[i], shape.bounding_radius)) return;
+    if (wall) std::erase_if(parts_, [&](const Silhouette& part) { return !view_.cut.keeps_point(part.place); });
     for (const Silhouette& part : parts_) include(part, bounds_);
-    if (bodies_.motion[i] == Motion::dynamic) return add_particle(i);
+    if (!wall) return add_particle(i);
     add_wall(i);
     for (const Primitive& primitive : words_.shapes.primitives(shape)) {
       if (primitive.kind == ShapeKind::plane) add_plane(pose * primitive.local);

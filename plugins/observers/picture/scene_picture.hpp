@@ -7,6 +7,7 @@
 
 #include "picture.hpp"
 #include "scree/interfaces/observer.hpp"
+#include "vtp/cut_view.hpp"
 
 namespace scree {
 
@@ -23,6 +24,7 @@ struct SceneWords {
 struct View {
   Projection projection{{1, 0, 0}, {0, 1, 0}};
   std::optional<Window> window;  ///< what is seen; bounds of everything bounded when absent
+  CutView cut = {};              ///< what is shown
   double velocity_arrows = 0.0;  ///< arrows show the way of so much time [s]; 0: none
 };
 

@@ -87,13 +87,13 @@ class SilhouetteBuilder {
   }
   void disc(const Vec3& local, double radius) {
     const Vec3 centre = transform(pose_, local);
-    out_.push_back({projection_(centre), radius, {}, projection_.depth(centre), primitive_->collides});
+    out_.push_back({projection_(centre), radius, {}, projection_.depth(centre), primitive_->collides, false, centre});
   }
   void polygon() {
     const double along = std::abs(dot(rotate(pose_.orientation, {0, 0, 1}), projection_.to_viewer()));
     const bool hollow = primitive_->hollow && along > kSeenAlong;
     out_.push_back({projection_(pose_.position), 0.0, convex_outline(corners_), projection_.depth(pose_.position),
-                    primitive_->collides, hollow});
+                    primitive_->collides, hollow, pose_.position});
   }
   void mesh() {
     const auto triangles = shapes_.triangles().subspan(primitive_->first_triangle, primitive_->triangle_count);
@@ -102,8 +102,8 @@ class SilhouetteBuilder {
       for (const std::uint32_t vertex : t) corner(shapes_.vertices()[vertex]);
       const Vec3 middle = (shapes_.vertices()[t[0]] + shapes_.vertices()[t[1]] + shapes_.vertices()[t[2]]) / 3.0;
       const Vec3 centre = transform(pose_, middle);
-      out_.push_back(
-          {projection_(centre), 0.0, convex_outline(corners_), projection_.depth(centre), primitive_->collides});
+      out_.push_back({projection_(centre), 0.0, convex_outline(corners_), projection_.depth(centre),
+                      primitive_->collides, false, centre});
     }
   }
 

@@ -16,6 +16,7 @@ struct Silhouette {
   double depth = 0.0;           ///< of the centre, grows towards the viewer [m]
   bool collides = true;
   bool hollow = false;  ///< a cylinder seen along its axis whose inside is free
+  Vec3 place = {};      ///< of the centre [m], world
 };
 
 /// The corners of the smallest convex polygon around points, counter-clockwise (Andrew's monotone chain, 1979).

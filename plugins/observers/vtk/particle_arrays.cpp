@@ -6,22 +6,14 @@ namespace scree {
 
 namespace {
 
-std::vector<BodyIndex> dynamic_bodies(const BodyView& bodies) {
-  std::vector<BodyIndex> which;
-  for (BodyIndex i = 0; i < bodies.size(); ++i) {
-    if (bodies.motion[i] == Motion::dynamic) which.push_back(i);
-  }
-  return which;
-}
-
 template <class Value>
-std::vector<Value> picked(std::span<const Value> column, const std::vector<BodyIndex>& which) {
+std::vector<Value> picked(std::span<const Value> column, std::span<const BodyIndex> which) {
   std::vector<Value> values(which.size());
   std::transform(which.begin(), which.end(), values.begin(), [&](BodyIndex i) { return column[i]; });
   return values;
 }
 
-std::vector<std::int32_t> picked_indices(std::span<const std::uint32_t> column, const std::vector<BodyIndex>& which) {
+std::vector<std::int32_t> picked_indices(std::span<const std::uint32_t> column, std::span<const BodyIndex> which) {
   std::vector<std::int32_t> values(which.size());
   std::transform(which.begin(), which.end(), values.begin(),
                  [&](BodyIndex i) { return static_cast<std::int32_t>(column[i]); });
@@ -34,14 +26,14 @@ std::int32_t type_of(const ShapeSet& shapes, std::uint32_t shape) {
                                                           : kShapeKindCount);
 }
 
-std::vector<std::int32_t> types(const BodyView& bodies, const ShapeSet& shapes, const std::vector<BodyIndex>& which) {
+std::vector<std::int32_t> types(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> which) {
   std::vector<std::int32_t> values(which.size());
   std::transform(which.begin(), which.end(), values.begin(),
                  [&](BodyIndex i) { return type_of(shapes, bodies.shape[i]); });
   return values;
 }
 
-std::vector<double> charges(const BodyView& bodies, const std::vector<BodyIndex>& which) {
+std::vector<double> charges(const BodyView& bodies, std::span<const BodyIndex> which) {
   const Attributes& attributes = *bodies.attributes;
   if (attributes.has("charge")) return picked(attributes.column(attributes.id("charge")), which);
   std::vector<double> sum(which.size(), 0.0);
@@ -54,8 +46,8 @@ std::vector<double> charges(const BodyView& bodies, const std::vector<BodyIndex>
 
 }  // namespace
 
-PolyData particle_data(const BodyView& bodies, const ShapeSet& shapes, Precision precision) {
-  const std::vector<BodyIndex> which = dynamic_bodies(bodies);
+PolyData particle_data(const BodyView& bodies, std::span<const BodyIndex> which, const ShapeSet& shapes,
+                       Precision precision) {
   const auto scalars = [&](const char* name, std::span<const double> column) {
     return to_array(name, picked(column, which), precision);
   };
@@ -82,8 +74,8 @@ PolyData particle_data(const BodyView& bodies, const ShapeSet& shapes, Precision
   return data;
 }
 
-PolyData sphere_data(const BodyView& bodies, const ShapeSet& shapes, Precision precision) {
-  const std::vector<BodyIndex> which = dynamic_bodies(bodies);
+PolyData sphere_data(const BodyView& bodies, std::span<const BodyIndex> which, const ShapeSet& shapes,
+                     Precision precision) {
   const std::vector<double> charge_of = charges(bodies, which);
   std::vector<Vec3> centre, velocity;
   std::vector<double> radius, charge;

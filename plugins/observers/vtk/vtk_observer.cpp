@@ -13,14 +13,15 @@
 namespace scree {
 
 VtkObserver::VtkObserver(const Options& options)
-    : interval_{options.number("interval")},
+    : options_{options},
+      interval_{options.number("interval")},
       walls_{options.boolean("walls")},
       spheres_{options.boolean("spheres")},
       precision_{options.text("precision") == "double" ? Precision::double_precision : Precision::single_precision},
       surface_options_{static_cast<int>(options.integer("segments")), options.number("plane_size")} {}
 
 std::vector<Parameter> VtkObserver::parameters() {
-  return {
+  std::vector<Parameter> list{
       Parameter::number("interval", "s", "simulated time between two frames; rounded to whole steps")
           .above(0.0)
           .by_default(0.02),
@@ -33,6 +34,8 @@ std::vector<Parameter> VtkObserver::parameters() {
           .above(0.0)
           .by_default(1.0),
   };
+  for (Parameter& parameter : CutView::parameters()) list.push_back(std::move(parameter));
+  return list;
 }
 
 void VtkObserver::setup(SceneServices& services, const std::filesystem::path& results) {
@@ -40,6 +43,7 @@ void VtkObserver::setup(SceneServices& services, const std::filesystem::path& re
   stems_ = {stem("run"), stem("particles"), stem("walls"), stem("spheres")};
   results_ = results;
   services.show_all_attributes();
+  cut_.setup(options_, services);
   shapes_ = &services.shapes();
   materials_ = &services.materials();
   steps_between_ = static_cast<std::uint64_t>(std::max(1.0, std::round(interval_ / services.time_step())));
@@ -79,15 +83,24 @@ std::vector<TextArray> VtkObserver::texts() const {
   return {{"material_names", materials_->names()}, kinds};
 }
 
+std::vector<BodyIndex> VtkObserver::shown_particles(const BodyView& bodies) const {
+  std::vector<BodyIndex> which;
+  for (BodyIndex i = 0; i < bodies.size(); ++i) {
+    if (cut_.is_wall(bodies, i) || cut_.hides(bodies.id[i])) continue;
+    if (cut_.keeps(bodies.position[i], shapes_->shapes()[bodies.shape[i]].bounding_radius)) which.push_back(i);
+  }
+  return which;
+}
+
 void VtkObserver::write_particles(const Observation& now, const std::string& file) const {
-  PolyData data = particle_data(now.bodies, *shapes_, precision_);
+  PolyData data = particle_data(now.bodies, shown_particles(now.bodies), *shapes_, precision_);
   data.time = now.time;
   data.texts = texts();
   write_vtp(data, results_ / file);
 }
 
 void VtkObserver::write_spheres(const Observation& now, const std::string& file) const {
-  PolyData data = sphere_data(now.bodies, *shapes_, precision_);
+  PolyData data = sphere_data(now.bodies, shown_particles(now.bodies), *shapes_, precision_);
   data.time = now.time;
   data.texts = texts();
   write_vtp(data, results_ / file);
@@ -95,8 +108,8 @@ void VtkObserver::write_spheres(const Observation& now, const std::string& file)
 
 bool VtkObserver::walls_moved(const BodyView& bodies) {
   std::vector<Pose> poses;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies.motion[i] != Motion::dynamic) poses.push_back({bodies.position[i], bodies.orientation[i]});
+  for (BodyIndex i = 0; i < bodies.size(); ++i) {
+    if (cut_.is_wall(bodies, i)) poses.push_back({bodies.position[i], bodies.orientation[i]});
   }
   if (poses == wall_poses_) return false;
   wall_poses_ = std::move(poses);
@@ -109,10 +122,12 @@ void VtkObserver::write_walls(const Observation& now) {
   Surface surface;
   std::vector<std::uint64_t> owner;
   std::vector<std::int32_t> material;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies.motion[i] == Motion::dynamic) continue;
+  for (BodyIndex i = 0; i < bodies.size(); ++i) {
+    if (!cut_.is_wall(bodies, i) || cut_.hides(bodies.id[i])) continue;
+    const std::size_t first = surface.triangles.size();
     append_surface(*shapes_, shapes_->shapes()[bodies.shape[i]], {bodies.position[i], bodies.orientation[i]},
                    surface_options_, surface);
+    cut_.clip(surface, first);
     owner.resize(surface.triangles.size(), bodies.id[i]);
     material.resize(surface.triangles.size(), static_cast<std::int32_t>(bodies.material[i]));
   }

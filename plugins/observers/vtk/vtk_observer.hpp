@@ -6,6 +6,7 @@
 
 #include "scree/config/options.hpp"
 #include "scree/interfaces/observer.hpp"
+#include "vtp/cut_view.hpp"
 #include "vtp/file_series.hpp"
 #include "vtp/poly_data.hpp"
 #include "vtp/surface.hpp"
@@ -39,9 +40,12 @@ class VtkObserver final : public Observer {
   void write_particles(const Observation& now, const std::string& file) const;
   void write_spheres(const Observation& now, const std::string& file) const;
   void write_walls(const Observation& now);
+  [[nodiscard]] std::vector<BodyIndex> shown_particles(const BodyView& bodies) const;
   [[nodiscard]] bool walls_moved(const BodyView& bodies);
   [[nodiscard]] std::vector<TextArray> texts() const;
 
+  Options options_;
+  CutView cut_;
   double interval_;  ///< [s]
   bool walls_;
   bool spheres_;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "plot/figure.hpp"
 #include "vtp/poly_data.hpp"
@@ -53,6 +54,21 @@ struct Columns {
   }
 };
 
+/// A unit in which a volume is a number that one reads.
+struct VolumeUnit {
+  const char* name;
+  double per_m3;
+};
+
+VolumeUnit unit_for(double volume) {
+  constexpr std::array kUnits{VolumeUnit{"m3", 1.0},        VolumeUnit{"cm3", 1e6},       VolumeUnit{"mm3", 1e9},
+                              VolumeUnit{"1e-3 mm3", 1e12}, VolumeUnit{"1e-6 mm3", 1e15}, VolumeUnit{"um3", 1e18}};
+  for (const VolumeUnit& unit : kUnits) {
+    if (volume * unit.per_m3 >= 0.1) return unit;
+  }
+  return kUnits.back();
+}
+
 }  // namespace
 
 void WearObserver::write_field(double time, std::uint64_t step) {
@@ -84,14 +100,20 @@ void WearObserver::write_figure() const {
   plot::Figure figure;
   figure.title = "Wear";
   figure.x = {"time [s]"};
-  figure.y = {"volume [mm3]"};
+  double most = 0.0;
+  for (std::size_t k = 0; k < followed_.size(); ++k) {
+    const WearAmount& all = accounts_[k].total();
+    most = std::max({most, all.sliding_volume, all.impact_volume});
+  }
+  const VolumeUnit unit = unit_for(most);
+  figure.y = {std::string{"volume ["} + unit.name + "]"};
   for (std::size_t k = 0; k < followed_.size(); ++k) {
     const auto key = static_cast<double>(k);
     const std::vector<double> time = table_.column(kTime, kBody, key);
     for (const auto& [column, word] : {std::pair{kSliding, " (sliding)"}, std::pair{kImpact, " (impacts)"}}) {
       std::vector<double> volume = table_.column(column, kBody, key);
       if (volume.empty() || volume.back() == 0.0) continue;
-      for (double& v : volume) v *= 1e9;
+      for (double& v : volume) v *= unit.per_m3;
       figure.series.push_back({followed_.name(k) + word, plot::SeriesStyle::line, time, std::move(volume)});
     }
   }
