@@ -1,0 +1,182 @@
+"""Loads, wear, networks and collisions of whole runs against closed forms, and through a checkpoint.
+
+usage: contact_studies.py SCREE
+"""
+
+import csv
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCREE = os.path.abspath(sys.argv[1])
+G, DENSITY, RADIUS, FRICTION = 9.81, 2500.0, 0.01, 0.4
+BALL = DENSITY * 4 / 3 * math.pi * RADIUS**3  # [kg]
+CUBE = DENSITY * 0.02**3
+
+COMMON = """
+[simulation]
+end_time = "{end} s"
+time_step = "{step} ms"
+[time_stepper]
+type = "dvi"
+friction = "coulomb"
+friction_tolerance = 1e-7
+[ccp_solver]
+type = "asgs"
+tolerance = 1e-8
+max_iterations = 2000
+[broad_phase]
+type = "grid"
+[[force_field]]
+type = "gravity"
+[material.stone]
+density = "2500 kg/m3"
+friction = 0.4
+restitution = {restitution}
+[shape.slab]
+type = "box"
+size = ["1 m", "1 m", "0.1 m"]
+[shape.ball]
+type = "sphere"
+radius = "10 mm"
+[shape.cube]
+type = "box"
+size = ["20 mm", "20 mm", "20 mm"]
+[[body]]
+name = "plate"
+shape = "slab"
+material = "stone"
+position = [0.0, 0.0, -0.05]
+[[observer]]
+type = "body_load"
+bodies = ["plate"]
+interval = "{interval} ms"
+[[observer]]
+type = "wear"
+bodies = ["plate"]
+hardness = "1 GPa"
+wear_coefficient = 1e-3
+field_interval = "0.1 s"
+interval = "{interval} ms"
+[[observer]]
+type = "contact_network"
+interval = "{interval} ms"
+[[observer]]
+type = "collision_energy"
+interval = "{interval} ms"
+"""
+
+
+def body(name, shape, position, velocity=(0, 0, 0)):
+    return (f'[[body]]\nname = "{name}"\nshape = "{shape}"\nmaterial = "stone"\nmotion = "dynamic"\n'
+            f"position = [{position[0]}, {position[1]}, {position[2]}]\n"
+            f"velocity = [{velocity[0]:.9f}, {velocity[1]:.9f}, {velocity[2]:.9f}]\n")
+
+
+class ContactStudies(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+        self.addCleanup(self.temporary.cleanup)
+
+    def write(self, name, bodies, end, step=1, restitution=0.0, interval=10):
+        scene = self.folder / name
+        scene.write_text(COMMON.format(end=end, step=step, restitution=restitution, interval=interval) + bodies)
+        return scene
+
+    def run_scene(self, scene, results, *arguments):
+        command = [SCREE, "run", str(scene), "-o", str(self.folder / results), "--quiet", *arguments]
+        done = subprocess.run(command, text=True, capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def table(self, results, name):
+        with open(self.folder / results / name, newline="") as file:
+            rows = list(csv.reader(file))
+        names = [column.split(" [")[0] for column in rows[0]]
+        return [dict(zip(names, row)) for row in rows[1:]]
+
+    def near(self, value, expected, tolerance):
+        self.assertLessEqual(abs(float(value) - expected), tolerance, f"{value} is not {expected}")
+
+    def test_a_resting_ball_loads_the_plate_with_its_weight_and_its_moment(self):
+        scene = self.write("rest.toml", body("ball", "ball", (0.2, -0.1, RADIUS)), 0.1)
+        self.run_scene(scene, "rest")
+        weight = BALL * G
+        for row in self.table("rest", "body_load.csv"):
+            self.near(row["force_z"], -weight, 1e-6 * weight)
+            self.near(row["torque_x"], -0.1 * -weight, 1e-6 * weight)
+            self.near(row["torque_y"], -0.2 * -weight, 1e-6 * weight)
+            self.near(row["power"], 0, 0)
+        last = self.table("rest", "contact_network.csv")[-1]
+        self.assertEqual((last["grains"], last["links"], last["coordination"]), ("1", "1", "1"))
+        self.near(last["mean_normal_force"], weight, 1e-6 * weight)
+        self.assertEqual(float(self.table("rest", "wear.csv")[-1]["volume"]), 0.0)
+
+    # A cube slides to rest: way v^2 / (2 mu g), V = k m g s / H; what friction takes is its energy. A step of 1 ms of 0.25 s.
+    def test_a_sliding_cube_wears_as_archard_says(self):
+        scene = self.write("slide.toml", body("cube", "cube", (-0.2, 0.1, 0.01), (1, 0, 0)), 0.4)
+        self.run_scene(scene, "slide")
+        last = self.table("slide", "wear.csv")[-1]
+        way = 1 / (2 * FRICTION * G)
+        volume = 1e-3 * CUBE * G * way / 1e9
+        self.near(last["sliding_volume"], volume, 0.01 * volume)
+        self.near(last["sliding_energy"], 0.5 * CUBE, 0.01 * 0.5 * CUBE)
+        self.assertEqual(float(last["impacts"]), 0.0)
+
+    # At 30 degrees, without rebound: m U^2 / (4 p) cos^2(30) / 3; at 90 degrees nothing. Gravity adds 0.1 m/s on the way.
+    def test_impacts_wear_as_finnie_says(self):
+        speed = 5.0
+        for degrees, factor in ((30, 0.25), (90, 0.0)):
+            angle = math.radians(degrees)
+            velocity = (speed * math.cos(angle), 0, -speed * math.sin(angle))
+            start = [p - 0.01 * v for p, v in zip((0, 0, RADIUS), velocity)]
+            scene = self.write(f"hit{degrees}.toml", body("ball", "ball", start, velocity), 0.02)
+            self.run_scene(scene, f"hit{degrees}")
+            last = self.table(f"hit{degrees}", "wear.csv")[-1]
+            unit = BALL * speed**2 / (4 * 1e9)
+            self.near(last["impact_volume"], factor * unit, 0.02 * unit)
+            self.near(last["impacts"], 1, 1e-12)
+            down = speed * math.sin(angle) + G * 0.01
+            self.near(last["impact_energy"], 0.5 * BALL * down**2, 0.01 * BALL * down**2)
+
+    # From 0.2 m with restitution 0.5: m g h, then a quarter of it each time; 1 - e^2 of each is lost.
+    def test_bounces_of_a_dropped_ball_are_its_spectrum(self):
+        height, e = 0.2, 0.5
+        scene = self.write("drop.toml", body("ball", "ball", (0, 0, RADIUS + height)), 0.8, 0.25, e)
+        self.run_scene(scene, "drop")
+        rows = [row for row in self.table("drop", "collision_energy.csv") if int(row["collisions"]) > 0]
+        energy = BALL * G * height
+        normal = sorted((float(row["sum"]) for row in rows if row["energy"] == "normal"), reverse=True)
+        self.near(normal[0], energy, 0.01 * energy)
+        self.near(normal[1], energy / 4, 0.02 * energy / 4)
+        lost = sum(float(row["sum"]) for row in rows if row["energy"] == "dissipated")
+        self.near(lost, energy, 0.01 * energy)
+
+    # Everything at once, in the middle of bounces and sliding: 0.1 s and 0.1 s more are 0.2 s.
+    def test_a_resumed_run_has_the_tables_of_one_run(self):
+        bodies = body("ball", "ball", (0.2, -0.1, 0.03)) + body("cube", "cube", (-0.2, 0.1, 0.02), (1, 0, -0.5))
+        bodies += "".join(body(f"b{i}", "ball", (0.021 * i, 0.01 * i, 0.012 + 0.02 * i), (0.3, 0, -0.2)) for i in range(5))
+        for name, end in (("whole", 0.2), ("half", 0.1)):
+            self.run_scene(self.write(f"{name}.toml", bodies, end, restitution=0.4, interval=7), name)
+        self.run_scene(self.folder / "whole.toml", "second", "--resume", str(self.folder / "half" / "checkpoint.h5"))
+        for name in ("body_load.csv", "wear.csv", "wear_00000200.vtp", "contact_network.csv",
+                     "contact_network_forces.csv", "collision_energy.csv", "collision_energy_series.csv"):
+            whole, second = ((self.folder / run / name).read_bytes() for run in ("whole", "second"))
+            self.assertEqual(whole, second, name)
+            self.assertGreater(len(whole), 100, name)
+
+    def test_an_unknown_body_is_named_with_what_there_is(self):
+        scene = self.write("wrong.toml", "", 0.1)
+        scene.write_text(scene.read_text().replace('bodies = ["plate"]\nhardness', 'bodies = ["plat"]\nhardness'))
+        done = subprocess.run([SCREE, "run", str(scene), "-o", str(self.folder / "wrong")], text=True, capture_output=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("plate", done.stderr + done.stdout)
+        self.assertIn("plat'", done.stderr + done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
