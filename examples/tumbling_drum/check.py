@@ -18,7 +18,7 @@ def lean(track, since):
 with Check(__file__) as check:
     track = check.run().table("track.csv")
     grains = [i for i in range(len(track["time"])) if track["id"][i] > 0]
-    check.holds("24 grains tumble", len({track["id"][i] for i in grains}) == 24)
+    check.holds("32 grains tumble", len({track["id"][i] for i in grains}) == 32)
     far = max(math.hypot(track["x"][i], track["y"][i]) for i in grains)
     check.holds("every grain stays within the mantle", far < R - INRADIUS + DEPTH, f"middles up to {far:.4g} m")
     wide = max(abs(track["z"][i]) for i in grains)

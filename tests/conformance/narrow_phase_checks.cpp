@@ -28,5 +28,24 @@ std::vector<NarrowPhaseCase> cases() {
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(NarrowPhaseConformance);
 INSTANTIATE_TEST_SUITE_P(entry, NarrowPhaseConformance, testing::ValuesIn(cases()), narrow_phase_case_name);
 
+std::vector<NarrowPhaseCase> hollow_cases() {
+  std::vector<NarrowPhaseCase> list;
+  for (const Subject& subject : living_subjects(NarrowPhase::kKind)) {
+    const auto make = [subject] {
+      return std::unique_ptr<NarrowPhase>{static_cast<NarrowPhase*>(subject.make().release())};
+    };
+    for (std::size_t k = 0; k < kShapeKindCount; ++k) {
+      const auto kind = static_cast<ShapeKind>(k);
+      // A plane is outside of the drum, which it meets like a solid one.
+      if (kind == ShapeKind::plane || !make()->supports_hollow(kind)) continue;
+      list.push_back({.name = subject.entry.name, .make = make, .a = ShapeKind::cylinder, .b = kind});
+    }
+  }
+  return list;
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(HollowDrumConformance);
+INSTANTIATE_TEST_SUITE_P(entry, HollowDrumConformance, testing::ValuesIn(hollow_cases()), narrow_phase_case_name);
+
 }  // namespace
 }  // namespace scree::test

@@ -2,6 +2,7 @@
 // scree-conformance instantiates for the phases of a plugin.
 #pragma once
 
+#include "conformance/hollow_drum_case.hpp"
 #include "conformance/narrow_phase_case.hpp"
 #include "support/trials.hpp"
 
@@ -19,6 +20,20 @@ TEST_P(NarrowPhaseConformance, contacts_are_true_and_none_is_missing) {
     const std::string fault = fault_of(*param.make(), pose);
     if (fault.empty() || is_declared_exception(param, trial)) continue;
     if (++faults <= 5) ADD_FAILURE() << pose.description << ": " << fault;
+  }
+  EXPECT_EQ(faults, 0) << "of " << count << " poses";
+}
+
+/// The same for a phase and what it supports inside of a hollow cylinder: kind b of the case.
+class HollowDrumConformance : public testing::TestWithParam<NarrowPhaseCase> {};
+
+TEST_P(HollowDrumConformance, contacts_are_true_and_none_is_missing) {
+  const int count = trials(GetParam().poses);
+  int faults = 0;
+  for (int trial = 0; trial < count; ++trial) {
+    const DrumPose pose = drum_pose(GetParam().b, trial);
+    const std::string fault = fault_of(*GetParam().make(), pose);
+    if (!fault.empty() && ++faults <= 5) ADD_FAILURE() << pose.description << ": " << fault;
   }
   EXPECT_EQ(faults, 0) << "of " << count << " poses";
 }

@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "manifold.hpp"
+#include "pair.hpp"
 #include "scree/base/error.hpp"
 
 namespace scree::convex {
 namespace {
-
-/// Bits of a feature that tell the points of two parts apart.
-constexpr unsigned kPartShift = 16;
 
 /// A fold by less is none [rad].
 constexpr double kLevelFold = 1e-6;
@@ -19,27 +17,6 @@ bool is_mesh(const Primitive& p) { return p.kind == ShapeKind::triangle_mesh; }
 
 }  // namespace
 
-/// One pair of colliders while its contacts are found.
-struct ConvexPhase::Pair {
-  const ColliderView& colliders;
-  ColliderPair pair;
-  ContactBuffer& out;
-  std::uint32_t a, b;  // primitives
-  double size = 1.0;   // [m]: what is 1 in the pair's frame
-  Vec3 origin;         // of the pair's frame [m], world
-  double reach = 0.0;  // [size of the pair]
-  bool fell_back = false;
-  // Parts that overlap in a way that is not the mesh's own, in case no other one holds the two apart: their hulls do then.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> orphans{};
-  std::vector<std::uint32_t> parts_a, parts_b;
-  std::vector<ManifoldPoint> points;
-
-  void add(std::uint64_t feature, const Vec3& point, const Vec3& normal, double gap) const {
-    out.push_back({colliders.body[pair.a], colliders.body[pair.b], colliders.ordinal[pair.a], colliders.ordinal[pair.b],
-                   feature, origin + size * point, normal, size * gap});
-  }
-};
-
 bool ConvexPhase::supports(ShapeKind a, ShapeKind b) const { return a != ShapeKind::plane || b != ShapeKind::plane; }
 
 void ConvexPhase::bind(const ShapeSet& shapes, std::size_t first_new_primitive) {
@@ -47,9 +24,14 @@ void ConvexPhase::bind(const ShapeSet& shapes, std::size_t first_new_primitive) 
   const auto primitives = shapes.primitives();
   loops_.resize(primitives.size());
   meshes_.resize(primitives.size());
+  inside_.resize(primitives.size());
   for (std::size_t i = first_new_primitive; i < primitives.size(); ++i) {
     if (primitives[i].kind == ShapeKind::convex_hull) loops_[i] = face_loops(shapes, primitives[i]);
-    if (is_mesh(primitives[i])) meshes_[i] = std::make_unique<SurfaceTree>(shapes, primitives[i]);
+    meshes_[i] = nullptr;
+    inside_[i] = nullptr;
+    if (!is_mesh(primitives[i])) continue;
+    meshes_[i] = std::make_unique<SurfaceTree>(shapes, primitives[i]);
+    if (meshes_[i]->closed()) inside_[i] = make_inside(shapes, primitives[i]);
   }
 }
 
@@ -180,28 +162,32 @@ void ConvexPhase::add_manifold(Pair& pair, std::uint32_t part_a, std::uint32_t p
   for (const ManifoldPoint& p : pair.points) pair.add(parts << kPartShift | p.feature, p.point, found.normal, p.gap);
 }
 
-void ConvexPhase::collide_plane(Pair& pair, std::uint32_t part) const {
-  const bool swapped = shapes_->primitives()[pair.a].kind == ShapeKind::plane;
-  const Pose& plane = pair.colliders.pose[swapped ? pair.pair.a : pair.pair.b];
-  const Pose& pose = pair.colliders.pose[swapped ? pair.pair.b : pair.pair.a];
-  const Vec3 up = rotate(plane.orientation, {0, 0, 1});
-  const ConvexSolid s = solid(pair, swapped ? pair.b : pair.a, pose, part);
+void ConvexPhase::touch_plane(Pair& pair, std::uint32_t part, bool plane_first, const Vec3& foot, const Vec3& up,
+                              std::uint64_t parts) const {
+  const Pose& pose = pair.colliders.pose[plane_first ? pair.pair.b : pair.pair.a];
+  const ConvexSolid s = solid(pair, plane_first ? pair.b : pair.a, pose, part);
   const SurfaceFeature feature = surface_feature(s, -up);
-  const Vec3 foot = (plane.position - pair.origin) / pair.size;
   for (std::size_t i = 0; i < feature.count; ++i) {
-    const double gap = dot(up, feature.corner[i] - foot);
+    const double gap = dot(up, feature.corner[i] - (foot - pair.origin) / pair.size);
     if (!(gap < pair.reach)) continue;
-    pair.add(std::uint64_t{part} << kPartShift | i, feature.corner[i] - 0.5 * gap * up, swapped ? up : -up, gap);
+    pair.add(parts << kPartShift | i, feature.corner[i] - 0.5 * gap * up, plane_first ? up : -up, gap);
   }
+}
+
+void ConvexPhase::collide_plane(Pair& pair, std::uint32_t part) const {
+  const bool first = shapes_->primitives()[pair.a].kind == ShapeKind::plane;
+  const Pose& plane = pair.colliders.pose[first ? pair.pair.a : pair.pair.b];
+  touch_plane(pair, part, first, plane.position, rotate(plane.orientation, {0, 0, 1}), part);
 }
 
 void ConvexPhase::collide_pair(Pair& pair) const {
   const Primitive& a = shapes_->primitives()[pair.a];
   const Primitive& b = shapes_->primitives()[pair.b];
   if (a.hollow || b.hollow) {
-    throw Error{ErrorKind::usage,
-                "a hollow cylinder meets a body that is not made of spheres, which no narrow phase computes yet; build "
-                "the drum of boxes or as a mesh, or the body of spheres"};
+    throw Error{
+        ErrorKind::usage,
+        "a hollow cylinder was given to a narrow phase that computes none; put 'sphere_cluster' and 'polyhedron' "
+        "before it"};
   }
   const Pose& pose_a = pair.colliders.pose[pair.pair.a];
   const Pose& pose_b = pair.colliders.pose[pair.pair.b];
@@ -211,7 +197,7 @@ void ConvexPhase::collide_pair(Pair& pair) const {
   pair.reach = pair.pair.reach / pair.size;
   find_parts(pair, pair.a, pose_a, pair.b, pose_b, pair.parts_a);
   find_parts(pair, pair.b, pose_b, pair.a, pose_a, pair.parts_b);
-  const std::size_t begin = pair.out.size();
+  const std::size_t begin = pair.begin = pair.out.size();
   pair.orphans.clear();
   for (const std::uint32_t i : pair.parts_a) {
     for (const std::uint32_t j : pair.parts_b) {
@@ -226,7 +212,10 @@ void ConvexPhase::collide_pair(Pair& pair) const {
   }
   const auto overlaps = [](const Contact& c) { return c.gap <= 0.0; };
   const auto first = pair.out.begin() + static_cast<std::ptrdiff_t>(begin);
-  if (!pair.orphans.empty() && std::none_of(first, pair.out.end(), overlaps)) add_orphans(pair);
+  if (std::none_of(first, pair.out.end(), overlaps)) {
+    const bool is_led_out = lead_out(pair, true) || lead_out(pair, false);
+    if (!is_led_out && !pair.orphans.empty()) add_orphans(pair);
+  }
   std::sort(pair.out.begin() + static_cast<std::ptrdiff_t>(begin), pair.out.end(),
             [](const Contact& l, const Contact& r) { return l.feature < r.feature; });
 }

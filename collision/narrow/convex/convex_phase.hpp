@@ -7,12 +7,16 @@
 #include <atomic>
 #include <memory>
 
+#include "scree/geometry/signed_distance.hpp"
 #include "scree/interfaces/narrow_phase.hpp"
 #include "separate.hpp"
 #include "surface_feature.hpp"
 #include "surface_tree.hpp"
 
 namespace scree::convex {
+
+/// Distances from the surface of a mesh, negative inside; nothing where it does not bound a solid.
+[[nodiscard]] std::unique_ptr<MeshDistance> make_inside(const ShapeSet& shapes, const Primitive& mesh);
 
 /// Everything but the library. Features: (part of a * parts of b + part of b) << 16 | place in the manifold, where a
 /// cluster's parts are its spheres and a mesh's its triangles.
@@ -42,6 +46,14 @@ class ConvexPhase : public NarrowPhase {
   /// Of a triangle: 1 when the other solid is in front of it or the mesh is closed, else -1; 0 of all that is no mesh.
   [[nodiscard]] double side_of(std::uint32_t primitive, const Pose& pose, std::uint32_t part, const Vec3& other) const;
   void collide_plane(Pair& pair, std::uint32_t part) const;
+  /// What of one part of a solid is nearest to the half space below `foot` [m], whose outward normal is `up`: world.
+  /// `plane_first`: the half space is that of body a.
+  void touch_plane(Pair& pair, std::uint32_t part, bool plane_first, const Vec3& foot, const Vec3& up,
+                   std::uint64_t parts) const;
+  /// Where the middle of a solid lies inside of a closed mesh, its contacts with the facet nearest to that, along whose
+  /// normal it is led out; false elsewhere. @param mesh_first the mesh is body a
+  bool lead_out(Pair& pair, bool mesh_first) const;
+  [[nodiscard]] Vec3 middle_of(std::uint32_t primitive) const;
   [[nodiscard]] std::optional<Separation> separate(Pair& pair, const ConvexSolid& a, const ConvexSolid& b) const;
   void find_parts(const Pair& pair, std::uint32_t primitive, const Pose& pose, std::uint32_t other,
                   const Pose& other_pose, std::vector<std::uint32_t>& out) const;
@@ -50,8 +62,9 @@ class ConvexPhase : public NarrowPhase {
   [[nodiscard]] std::size_t part_count(std::uint32_t primitive) const;
 
   const ShapeSet* shapes_ = nullptr;
-  std::vector<FaceLoops> loops_;                      // by primitive
-  std::vector<std::unique_ptr<SurfaceTree>> meshes_;  // by primitive
+  std::vector<FaceLoops> loops_;                       // by primitive
+  std::vector<std::unique_ptr<SurfaceTree>> meshes_;   // by primitive
+  std::vector<std::unique_ptr<MeshDistance>> inside_;  // by primitive; of meshes that bound a solid
   mutable std::atomic<std::uint64_t> fallbacks_ = 0;
 };
 

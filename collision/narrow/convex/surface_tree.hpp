@@ -30,6 +30,8 @@ class SurfaceTree {
   [[nodiscard]] std::size_t size() const { return triangle_.size(); }
   /// Every edge has two triangles: the mesh has an inside.
   [[nodiscard]] bool closed() const { return closed_; }
+  /// Holds them all [m]; nothing where there are none.
+  [[nodiscard]] Aabb box() const { return node_.empty() ? Aabb::empty() : node_[0].box; }
   /// Appends the triangles whose boxes meet `box` [m], in increasing order.
   void find(const Aabb& box, std::vector<std::uint32_t>& out) const;
   /// True when a contact with normal n, a unit vector away from the surface on the side of `side` times the triangle's normal,

@@ -14,7 +14,7 @@ constexpr std::uint32_t kLeafSize = 4;
 /// Sine of the angle by which a surface may rise and still count as level: rounding, and no more, or planes would get bumps.
 constexpr double kLevel = 1e-6;
 
-Vec3 middle(const MeshTriangle& t) { return t.corner[0] + t.corner[1] + t.corner[2]; }
+Vec3 sum_of_corners(const MeshTriangle& t) { return t.corner[0] + t.corner[1] + t.corner[2]; }
 
 /// A side of a triangle as it is passed, with the corner opposite to it.
 struct Pass {
@@ -29,6 +29,9 @@ MeshSurface::MeshSurface(std::span<const Vec3> vertices, std::span<const Triangl
   weld(vertices, triangles);
   if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(triangles_.size()));
   connect();
+  if (nodes_.empty()) return;
+  middle_ = 0.5 * (nodes_[0].box.lower + nodes_[0].box.upper);
+  for (const Vec3& corner : places_) size_ = std::max(size_, norm(corner - middle_));
 }
 
 void MeshSurface::weld(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
@@ -95,7 +98,7 @@ void MeshSurface::build(std::uint32_t first, std::uint32_t last) {
   Aabb box = Aabb::empty(), middles = Aabb::empty();
   for (std::uint32_t i = first; i < last; ++i) {
     for (const Vec3& corner : triangles_[i].corner) box = merged(box, corner);
-    middles = merged(middles, middle(triangles_[i]));
+    middles = merged(middles, sum_of_corners(triangles_[i]));
   }
   nodes_.push_back({box, 0, first, last - first});
   if (last - first > kLeafSize) {
@@ -105,7 +108,7 @@ void MeshSurface::build(std::uint32_t first, std::uint32_t last) {
     const std::uint32_t half = first + (last - first) / 2;
     const auto begin = triangles_.begin();
     std::nth_element(begin + first, begin + half, begin + last, [axis](const MeshTriangle& l, const MeshTriangle& r) {
-      const double ml = middle(l)[axis], mr = middle(r)[axis];
+      const double ml = sum_of_corners(l)[axis], mr = sum_of_corners(r)[axis];
       return ml != mr ? ml < mr : l.number < r.number;
     });
     build(first, half);

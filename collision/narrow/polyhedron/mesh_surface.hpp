@@ -37,6 +37,11 @@ class MeshSurface {
   /// Triangles whose box meets `box` [m], as indices for operator[], in the order of the tree.
   void near(const Aabb& box, std::vector<std::uint32_t>& out) const;
   [[nodiscard]] const MeshTriangle& operator[](std::uint32_t i) const { return triangles_[i]; }
+  /// The corners of its triangles [m], each once.
+  [[nodiscard]] std::span<const Vec3> corners() const { return places_; }
+  /// Middle [m] and radius [m] of a ball that holds them.
+  [[nodiscard]] const Vec3& middle() const { return middle_; }
+  [[nodiscard]] double size() const { return size_; }
 
   /// Whether a point [m] lies inside of a closed mesh: how often a ray from it passes the surface.
   [[nodiscard]] bool holds(const Vec3& point) const;
@@ -67,6 +72,8 @@ class MeshSurface {
   std::vector<Vec3> places_;                    // [m]
   std::vector<std::uint32_t> first_neighbour_;  // of each place, one more at the end
   std::vector<std::uint32_t> neighbours_;
+  Vec3 middle_;
+  double size_ = 0.0;
   bool closed_ = false;
 };
 

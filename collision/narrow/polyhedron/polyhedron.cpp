@@ -84,7 +84,9 @@ bool Polyhedron::supports(ShapeKind a, ShapeKind b) const {
   return (is_polytope(a) && b == ShapeKind::triangle_mesh) || (a == ShapeKind::triangle_mesh && is_polytope(b));
 }
 
-bool Polyhedron::supports_hollow(ShapeKind inside) const { return polyhedron::is_polytope(inside); }
+bool Polyhedron::supports_hollow(ShapeKind inside) const {
+  return inside != ShapeKind::plane && inside != ShapeKind::sphere && inside != ShapeKind::sphere_cluster;
+}
 
 void Polyhedron::bind(const ShapeSet& shapes, std::size_t first_new_primitive) {
   shapes_ = &shapes;
@@ -98,9 +100,26 @@ void Polyhedron::bind(const ShapeSet& shapes, std::size_t first_new_primitive) {
   }
 }
 
+void Polyhedron::collide_drum(std::uint32_t drum, const Pose& drum_pose, std::uint32_t inside, const Pose& pose,
+                              double reach, std::vector<polyhedron::MeshPoint>& out) const {
+  out.clear();
+  const Primitive& wall = shapes_->primitives()[drum];
+  const Primitive& solid = shapes_->primitives()[inside];
+  const polyhedron::Drum hollow{wall.size.x, wall.size.y};
+  const Pose in_drum = inverse(drum_pose) * pose;
+  if (polyhedron::is_polytope(solid.kind)) {
+    drum_contacts(hollow, polytopes_[inside], in_drum, reach, out);
+  } else if (solid.kind == ShapeKind::triangle_mesh) {
+    drum_contacts(hollow, meshes_[mesh_of_[inside]], in_drum, reach, out);
+  } else {
+    drum_contacts(hollow, solid.kind, solid.size, in_drum, reach, out);
+  }
+}
+
 void Polyhedron::collide(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) const {
   using namespace polyhedron;
   Scratch scratch;
+  const auto primitives = shapes_->primitives();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (k + kAhead < pairs.size()) polytopes_.fetch(colliders.primitive[pairs[k + kAhead].b]);
     const ColliderPair& pair = pairs[k];
@@ -112,19 +131,18 @@ void Polyhedron::collide(const ColliderView& colliders, std::span<const Collider
       for (const ManifoldPoint& p : scratch.manifold.points) write.add(p.at, scratch.manifold.normal, p.gap, p.feature);
       continue;
     }
-    const ColliderIndex surface = a_is_polytope ? pair.b : pair.a, solid = a_is_polytope ? pair.a : pair.b;
-    const Polytope polytope = polytopes_[colliders.primitive[solid]];
-    const std::uint32_t primitive = colliders.primitive[surface];
-    if (colliders.kind[surface] == ShapeKind::triangle_mesh) {
-      mesh_contacts(meshes_[mesh_of_[primitive]], colliders.pose[surface], polytope, colliders.pose[solid], pair.reach,
-                    scratch.mesh);
+    // A drum may hold a mesh, and a mesh a polytope.
+    const bool a_is_surface = primitives[colliders.primitive[pair.a]].hollow ||
+                              (!a_is_polytope && !primitives[colliders.primitive[pair.b]].hollow);
+    const ColliderIndex surface = a_is_surface ? pair.a : pair.b, solid = a_is_surface ? pair.b : pair.a;
+    const std::uint32_t primitive = colliders.primitive[surface], inside = colliders.primitive[solid];
+    if (primitives[primitive].hollow) {
+      collide_drum(primitive, colliders.pose[surface], inside, colliders.pose[solid], pair.reach, scratch.mesh.points);
     } else {
-      const Vec3& size = shapes_->primitives()[primitive].size;
-      scratch.mesh.points.clear();
-      drum_contacts(size.x, size.y, polytope, inverse(colliders.pose[surface]) * colliders.pose[solid], pair.reach,
-                    scratch.mesh.points);
+      mesh_contacts(meshes_[mesh_of_[primitive]], colliders.pose[surface], polytopes_[inside], colliders.pose[solid],
+                    pair.reach, scratch.mesh);
     }
-    Writer write{colliders, pair, a_is_polytope, out};
+    Writer write{colliders, pair, !a_is_surface, out};
     for (const MeshPoint& p : scratch.mesh.points) write.add(p.at, p.normal, p.gap, p.feature);
   }
 }
@@ -136,8 +154,8 @@ namespace {
 void list(scree::PluginList& plugins) {
   plugins
       .add<scree::NarrowPhase, scree::Polyhedron>("polyhedron",
-                                                  "Several points between boxes, hulls, capsules and meshes, and "
-                                                  "inside drums, by separating axes and clipping.")
+                                                  "Several points between boxes, hulls, capsules and meshes, and all "
+                                                  "solids inside drums, by separating axes and clipping.")
       .default_place = 2;
 }
 
