@@ -7,6 +7,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/parallel/executor.hpp"
 #include "scree/state/state_io.hpp"
+#include "second_look.hpp"
 #include "surface_motion.hpp"
 
 namespace scree {
@@ -49,15 +50,25 @@ StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double ti
   if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_, angular_impulse_);
   step_dt_ = dt;
   free_motion(services, bodies.view, time, dt);
-  const std::span<const Contact> found = find_contacts(services, bodies.view, dt);
+  std::span<const Contact> found = find_contacts(services, bodies.view, velocity_, angular_velocity_, dt);
   const dvi::JoinedBodies joined = pose_joints(services.machine(), bodies.view, time, dt);
-  assembly_.build({bodies.view, velocity_, angular_velocity_}, found, services.materials(), options_.limits, dt,
-                  services.executor(), joined);
   joint_guess_ = joined.problem.guess;
   StepSummary summary;
-  summary.contacts = assembly_.contacts().size();
-  measure_overlap(bodies.view, summary);
-  summary.solve = solve(services, bodies.view, summary, dt);
+  const auto build_and_solve = [&](StepSummary& of) {
+    assembly_.build({bodies.view, velocity_, angular_velocity_}, found, services.materials(), options_.limits, dt,
+                    services.executor(), joined);
+    solve(services, bodies.view, of, dt);
+  };
+  build_and_solve(summary);
+  if (look_again(services, bodies.view, found, dt)) {
+    found = seen_;
+    StepSummary second;
+    build_and_solve(second);
+    second.solve.iterations += summary.solve.iterations;
+    if (options_.coulomb) second.friction_solves += summary.friction_solves;
+    summary = second;
+  }
+  finish(services, bodies.view, summary, dt);
   services.before_motion();
   move(bodies, services.executor(), dt);
   if (velocity_.size() >= kManyRecords) release(velocity_, angular_velocity_);
@@ -89,10 +100,12 @@ void Dvi::free_motion(StepServices& services, const BodyView& bodies, double tim
 }
 
 // Surfaces that slip float by what they slip in a step, whoever moves: collision looks as far as for bodies that move so.
-std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyView& bodies, double dt) {
-  if (bodies.surface_motion.empty()) return services.contacts(bodies, velocity_, angular_velocity_, dt);
-  surface_velocity_ = velocity_;
-  surface_spin_ = angular_velocity_;
+std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyView& bodies,
+                                            const std::vector<Vec3>& velocity,
+                                            const std::vector<Vec3>& angular_velocity, double dt) {
+  if (bodies.surface_motion.empty()) return services.contacts(bodies, velocity, angular_velocity, dt);
+  surface_velocity_ = velocity;
+  surface_spin_ = angular_velocity;
   for (BodyIndex i = 0; i < bodies.size(); ++i) {
     if (bodies.surface_motion[i] == Twist{}) continue;
     const Twist surface = surface_motion(bodies, i);
@@ -100,6 +113,23 @@ std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyVi
     surface_spin_[i] += surface.angular;
   }
   return services.contacts(bodies, surface_velocity_, surface_spin_, dt);
+}
+
+// What the solver has just found is known to nobody who looked for contacts before.
+bool Dvi::look_again(StepServices& services, const BodyView& bodies, std::span<const Contact> found, double dt) {
+  const std::span<const Twist> w = std::span<const Twist>{w_}.first(assembly_.bodies().size());
+  if (!dvi::is_struck(bodies, assembly_.bodies(), w, dt)) return false;
+  seen_.assign(found.begin(), found.end());  // the next look takes the room of the first one
+  struck_velocity_ = velocity_;
+  struck_spin_ = angular_velocity_;
+  for (std::size_t k = 0; k < w.size(); ++k) {
+    struck_velocity_[assembly_.bodies()[k]] += w[k].linear;
+    struck_spin_[assembly_.bodies()[k]] += w[k].angular;
+  }
+  const std::span<const Contact> all = find_contacts(services, bodies, struck_velocity_, struck_spin_, dt);
+  if (dvi::add_crossed(bodies, all, {struck_velocity_, struck_spin_}, dt, seen_)) return true;
+  assembly_.move_contacts(seen_);
+  return false;
 }
 
 dvi::JoinedBodies Dvi::pose_joints(Machine* machine, const BodyView& bodies, double time, double dt) {
@@ -159,31 +189,37 @@ void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
   release(keys_, world_impulse_, world_angular_impulse_);
 }
 
-SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt) {
+void Dvi::solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt) {
   const CcpProblem problem = assembly_.problem();
   recall(bodies, problem, dt);
-  SolveSummary solved;
   if (problem.empty()) {
     w_.assign(problem.bodies(), Twist{});  // bodies whose joints are gone
-  } else {
-    if (options_.coulomb) {
-      CoulombLimits limits = options_.coulomb_limits;
-      limits.solver_has_its_own_goal = true;
-      const InnerSolve by_scene = [&services](const CcpProblem& posed, const InnerGoal&, std::span<double> gamma) {
-        return services.solve_ccp(posed, gamma);
-      };
-      const CoulombSummary outer = coulomb_.solve(problem, services.executor(), by_scene, limits, gamma_);
-      solved = outer.solve;
-      summary.friction_solves = outer.solves;
-      summary.friction_error = outer.error;
-    } else {
-      solved = services.solve_ccp(problem, gamma_);
-    }
-    delassus_.bind(problem, &services.executor());
-    w_.resize(problem.bodies());
-    delassus_.body_velocities(gamma_, w_);
-    if (problem.contacts.size() >= kManyRecords) delassus_ = {};
+    return;
   }
+  if (options_.coulomb) {
+    CoulombLimits limits = options_.coulomb_limits;
+    limits.solver_has_its_own_goal = true;
+    const InnerSolve by_scene = [&services](const CcpProblem& posed, const InnerGoal&, std::span<double> gamma) {
+      return services.solve_ccp(posed, gamma);
+    };
+    const CoulombSummary outer = coulomb_.solve(problem, services.executor(), by_scene, limits, gamma_);
+    summary.solve = outer.solve;
+    summary.friction_solves = outer.solves;
+    summary.friction_error = outer.error;
+  } else {
+    summary.solve = services.solve_ccp(problem, gamma_);
+  }
+  delassus_.bind(problem, &services.executor());
+  w_.resize(problem.bodies());
+  delassus_.body_velocities(gamma_, w_);
+  if (problem.contacts.size() >= kManyRecords) delassus_ = {};
+}
+
+// Makes the solver's answer the motion of the step, and tells of it.
+void Dvi::finish(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt) {
+  const CcpProblem problem = assembly_.problem();
+  summary.contacts = assembly_.contacts().size();
+  measure_overlap(bodies, summary);
   // Also when all joints are gone, so that the machine says so.
   if (Machine* machine = services.machine(); machine != nullptr && !machine->empty()) settle_joints(*machine);
   keep_results(bodies);
@@ -198,7 +234,6 @@ SolveSummary Dvi::solve(StepServices& services, const BodyView& bodies, StepSumm
     angular_velocity_[body] += w_[k].angular;
   }
   if (problem.units() >= kManyRecords) release_step();
-  return solved;
 }
 
 // While velocity_ is still that of the free motion.
