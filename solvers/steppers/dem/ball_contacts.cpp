@@ -17,66 +17,69 @@ constexpr std::size_t kPrefetch = 12;
 using Lane = ContactBatch::Lane;
 using Lanes3 = ContactBatch::Lanes3;
 
-void set(Lanes3& lanes, std::size_t k, const Vec3& v) { lanes.set(k, v); }
-
 }  // namespace
 
 /// Contacts on their way through the law.
 struct BallContacts::Work {
   ContactBatch batch;
   std::array<std::uint32_t, kLanes> pair;  // of each contact
-  std::array<char, kLanes> is_new;
-  alignas(64) Lane distance2, radius_a, radius_b, mass_a, mass_b, arm_a, arm_b, acting;
-  Lanes3 apart, spin_a, spin_b;
+  alignas(64) Lane distance2, radius_a, radius_b, arm_a, arm_b, inverse_mass, is_new, acting;
+  Lanes3 apart, rim;  // rim: sum of arm times angular velocity [m/s]
   ContactTally tally;
 };
 
-/// Raw columns first, one contact after the other; then arithmetic, all contacts side by side.
+/// Distances and normals, all contacts side by side.
+void BallContacts::measure(const Evaluation& e, Work& w) {
+  ContactBatch& batch = w.batch;
+  const double sunk = e.at_contact_point ? 0.5 : 0.0;
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const double distance = std::sqrt(w.distance2[k]), inverse = 1.0 / distance;
+    batch.normal.x[k] = inverse * w.apart.x[k];
+    batch.normal.y[k] = inverse * w.apart.y[k];
+    batch.normal.z[k] = inverse * w.apart.z[k];
+    const double a = w.radius_a[k], b = w.radius_b[k], overlap = a + b - distance;
+    batch.overlap[k] = overlap;
+    batch.radius[k] = a * b / (a + b);
+    w.arm_a[k] = a - sunk * overlap;
+    w.arm_b[k] = b - sunk * overlap;
+  }
+}
+
+/// What lies in memory body by body and pair by pair, contact after contact.
 void BallContacts::gather(const Slots& slots, const Evaluation& e, Work& w) const {
   ContactBatch& batch = w.batch;
-  const std::size_t count = batch.count;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < batch.count; ++k) {
     const Pair pair = pairs_[w.pair[k]];
-    const Twist &ta = slots.twist[pair.a], &tb = slots.twist[pair.b];
-    const Inertia &ia = slots.inertia[pair.a], &ib = slots.inertia[pair.b];
-    batch.velocity.set(k, tb.linear - ta.linear);
-    set(w.spin_a, k, ta.angular);
-    set(w.spin_b, k, tb.angular);
-    w.mass_a[k] = ia.mass, w.mass_b[k] = ib.mass;
-    batch.materials[k] = static_cast<std::uint32_t>(ia.material * e.materials + ib.material);
-    w.is_new[k] = (flags_[w.pair[k]] & kTouching) == 0;
+    const Moving &a = slots.moving[pair.a], &b = slots.moving[pair.b];
+    batch.velocity.set(k, b.linear - a.linear);
+    w.rim.set(k, w.arm_a[k] * a.angular + w.arm_b[k] * b.angular);
+    w.inverse_mass[k] = a.inverse_mass + b.inverse_mass;
+    w.is_new[k] = (flags_[w.pair[k]] & kTouching) == 0 ? 1.0 : 0.0;
+    batch.materials[k] = static_cast<std::uint32_t>(a.material * e.materials + b.material);
+    if (rolls_) batch.spin.set(k, b.angular - a.angular);
   }
   const std::size_t history = history_, stride = stride_;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < batch.count; ++k) {
     const double* const record = records_.data() + stride * w.pair[k];
     for (std::size_t j = 0; j < history; ++j) batch.history[j][k] = record[j];
   }
-  const double sunk = e.at_contact_point ? 0.5 : 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double distance = std::sqrt(w.distance2[k]), inverse = 1.0 / distance;
-    const double nx = inverse * w.apart.x[k], ny = inverse * w.apart.y[k], nz = inverse * w.apart.z[k];
-    batch.normal.x[k] = nx, batch.normal.y[k] = ny, batch.normal.z[k] = nz;
-    const double ra = w.radius_a[k], rb = w.radius_b[k], overlap = ra + rb - distance;
-    batch.overlap[k] = overlap;
-    batch.radius[k] = ra * rb / (ra + rb);
-    const double ma = w.mass_a[k], mb = w.mass_b[k];
-    // Of one body that forces do not move, whose mass is written as zero: that of the other.
-    batch.mass[k] = ma == 0.0 || mb == 0.0 ? ma + mb : ma * mb / (ma + mb);
-    const double arm_a = ra - sunk * overlap, arm_b = rb - sunk * overlap;
-    w.arm_a[k] = arm_a, w.arm_b[k] = arm_b;
-    const double sx = arm_a * w.spin_a.x[k] + arm_b * w.spin_b.x[k], sy = arm_a * w.spin_a.y[k] + arm_b * w.spin_b.y[k],
-                 sz = arm_a * w.spin_a.z[k] + arm_b * w.spin_b.z[k];
-    batch.velocity.x[k] -= sy * nz - sz * ny;
-    batch.velocity.y[k] -= sz * nx - sx * nz;
-    batch.velocity.z[k] -= sx * ny - sy * nx;
-    const double approach = -(nx * batch.velocity.x[k] + ny * batch.velocity.y[k] + nz * batch.velocity.z[k]);
-    const bool is_new = w.is_new[k] != 0;
-    const double since = is_new ? time_since(overlap, approach, e.h) : 0.0;
-    batch.ahead[k] = e.ahead(is_new, since);
-    w.acting[k] = acting_part(e, is_new, since, overlap, approach);
+}
+
+/// Velocities of the surfaces, and how the contact goes with the step; all contacts side by side.
+void BallContacts::combine(const Evaluation& e, Work& w) {
+  ContactBatch& batch = w.batch;
+  const ContactTiming timing{e};
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const double nx = batch.normal.x[k], ny = batch.normal.y[k], nz = batch.normal.z[k];
+    const double rx = w.rim.x[k], ry = w.rim.y[k], rz = w.rim.z[k];
+    const double vx = batch.velocity.x[k] - (ry * nz - rz * ny), vy = batch.velocity.y[k] - (rz * nx - rx * nz),
+                 vz = batch.velocity.z[k] - (rx * ny - ry * nx);
+    batch.velocity.x[k] = vx, batch.velocity.y[k] = vy, batch.velocity.z[k] = vz;
+    batch.mass[k] = 1.0 / w.inverse_mass[k];
+    const Acting acting = timing.of(w.is_new[k] != 0.0, batch.overlap[k], -(nx * vx + ny * vy + nz * vz));
+    batch.ahead[k] = acting.ahead;
+    w.acting[k] = acting.part;
   }
-  if (!e.rolls) return;
-  for (std::size_t k = 0; k < count; ++k) set(batch.spin, k, w.spin_b[k] - w.spin_a[k]);
 }
 
 void BallContacts::scatter(Slots& slots, const Evaluation& e, std::size_t chunk, Work& w) {
@@ -108,10 +111,7 @@ void BallContacts::scatter(Slots& slots, const Evaluation& e, std::size_t chunk,
     if ((flags_[at] & kTouched) == 0) before_[at] = batch.velocity[k];
     flags_[at] = kTouching | kTouched;
     if (e.stage != Stage::last || batch.overlap[k] <= 0.0) continue;
-    const double smaller = w.mass_a[k] == 0.0   ? w.radius_b[k]
-                           : w.mass_b[k] == 0.0 ? w.radius_a[k]
-                                                : std::min(w.radius_a[k], w.radius_b[k]);
-    w.tally.add(batch.overlap[k], smaller);
+    w.tally.add(batch.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
   }
 }
 
@@ -131,7 +131,9 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
   batch.count = 0;
   batch.lead = 0.5 * e.h;
   const auto flush = [&] {
+    measure(e, w);
     gather(slots, e, w);
+    combine(e, w);
     e.law->forces(batch);
     scatter(slots, e, chunk, w);
     batch.count = 0;
@@ -149,6 +151,8 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
       continue;
     }
     const std::size_t lane = batch.count;
+    __builtin_prefetch(&slots.moving[pair.b]);
+    __builtin_prefetch(&slots.moving[pair.a]);
     w.pair[lane] = static_cast<std::uint32_t>(k);
     w.distance2[lane] = distance2;
     w.apart.set(lane, apart);
@@ -188,12 +192,12 @@ void BallContacts::report(const Slots& slots, ContactRecords& out) const {
     if ((flags_[at] & kTouched) == 0) continue;
     const Pair pair = pairs_[at];
     const Place &a = slots.place[pair.a], &b = slots.place[pair.b];
-    const Twist &ta = slots.twist[pair.a], &tb = slots.twist[pair.b];
+    const Moving &ma = slots.moving[pair.a], &mb = slots.moving[pair.b];
     const Vec3 apart = b.position - a.position;
     const double distance = norm(apart), gap = distance - a.radius - b.radius;
     const Vec3 n = (1.0 / distance) * apart;
     const ContactFrame frame = contact_frame(n);
-    const Vec3 after = tb.linear - ta.linear - cross(a.radius * ta.angular + b.radius * tb.angular, n);
+    const Vec3 after = mb.linear - ma.linear - cross(a.radius * ma.angular + b.radius * mb.angular, n);
     const double* const record = records_.data() + stride_ * at + history_;
     const Vec3 impulse{record[0], record[1], record[2]};
     if (impulse == Vec3{} && gap > 0.0) continue;  // within reach of a law, but not held

@@ -69,7 +69,9 @@ class BallContacts {
                   std::span<const std::uint8_t> flags, std::span<const Vec3> before);
   ContactTally evaluate_chunk(Slots& slots, const Evaluation& evaluation, std::size_t chunk);
   void let_go(std::size_t pair);
+  static void measure(const Evaluation& evaluation, Work& work);
   void gather(const Slots& slots, const Evaluation& evaluation, Work& work) const;
+  static void combine(const Evaluation& evaluation, Work& work);
   void scatter(Slots& slots, const Evaluation& evaluation, std::size_t chunk, Work& work);
 
   std::size_t history_ = 0, stride_ = 3;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "scree/interfaces/contact_law.hpp"
@@ -21,38 +22,48 @@ struct Evaluation {
       false;                ///< forces act where the surfaces meet, in place of at each body's own undeformed surface
   std::size_t history = 0;  ///< doubles that the law keeps
   bool rolls = false;       ///< the law resists rolling
-
-  /// ContactBatch::ahead of a contact: `since` the surfaces met, where it is new [s].
-  [[nodiscard]] double ahead(bool is_new, double since) const {
-    if (is_new) return stage == Stage::first ? 0.0 : since;
-    return stage == Stage::first ? -0.5 * last_h : 0.5 * h;
-  }
 };
 
-/// Time since the surfaces met, of a new contact that closes with `approach` [m/s]: at most a step [s].
-inline double time_since(double overlap, double approach, double h) {
-  return overlap < approach * h ? std::max(overlap, 0.0) / approach : h;
-}
+/// How far ahead the springs of a contact are to be carried, and how much of what the kick assumes it acts.
+struct Acting {
+  double ahead = 0.0;  ///< ContactBatch::ahead [s]
+  double part = 1.0;   ///< [1]
+};
 
-/// A force of an evaluation stands for half a step on either side of it, where the contact lasts so long; for the whole time
-/// since the surfaces met, where the contact is new, and until they part, where that comes within a step. Without this, a
-/// dashpot, whose force jumps when surfaces meet, is right to first order in the step only. As a part of what the kick
-/// assumes [1].
-inline double acting_part(const Evaluation& e, bool is_new, double since, double overlap, double approach) {
-  // A neck acts beyond the surfaces, and begins and ends when the law says so.
-  if (e.reach > 0.0) return 1.0;
-  const double before = is_new ? since : 0.5 * e.h;
-  const double after = overlap < -approach * e.h ? std::max(overlap, 0.0) / -approach : 0.5 * e.h;
-  switch (e.stage) {
-    case Stage::first:
-      return after / (0.5 * e.h);
-    case Stage::last:
-      return before / (0.5 * e.h);
-    case Stage::middle:
-      break;
+/// A force of an evaluation stands for half a step on either side of it where the contact lasts so long; for the whole time
+/// since the surfaces met where the contact is new, and until they part where that comes within a step. Without this, a
+/// dashpot, whose force jumps when surfaces meet, is right to first order in the step only. Without branches, for loops over
+/// lanes.
+class ContactTiming {
+ public:
+  explicit ContactTiming(const Evaluation& e)
+      : h_{e.h},
+        half_{0.5 * e.h},
+        old_ahead_{e.stage == Stage::first ? -0.5 * e.last_h : 0.5 * e.h},
+        new_ahead_{e.stage == Stage::first ? 0.0 : 1.0},
+        of_before_{e.stage == Stage::first  ? 0.0
+                   : e.stage == Stage::last ? 2.0 / e.h
+                                            : 1.0 / e.h},
+        of_after_{e.stage == Stage::last    ? 0.0
+                  : e.stage == Stage::first ? 2.0 / e.h
+                                            : 1.0 / e.h},
+        // A neck acts beyond the surfaces, and begins and ends when the law says so.
+        whole_{e.reach > 0.0} {}
+
+  /// Of a contact that closes with `approach` [m/s].
+  [[nodiscard]] Acting of(bool is_new, double overlap, double approach) const {
+    const double way = h_ * std::abs(approach), closed = std::max(overlap, 0.0);
+    const double time = closed < way ? h_ * (closed / way) : h_;  // to cover the overlap, at most a step
+    const double since = approach > 0.0 ? time : h_;
+    const double before = is_new ? since : half_;
+    const double after = approach < 0.0 && closed < way ? time : half_;
+    return {is_new ? new_ahead_ * since : old_ahead_, whole_ ? 1.0 : of_before_ * before + of_after_ * after};
   }
-  return (before + after) / e.h;
-}
+
+ private:
+  double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_;
+  bool whole_;
+};
 
 /// Part of the step that the impulse of an evaluation's force belongs to [s].
 inline double kick_time(const Evaluation& e) { return e.stage == Stage::middle ? e.h : 0.5 * e.h; }

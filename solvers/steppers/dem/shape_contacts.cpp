@@ -132,7 +132,7 @@ ShapeContacts::Arms ShapeContacts::arms(const Slots& slots, const Contact& c, bo
 }
 
 Vec3 ShapeContacts::surface_velocity(const Slots& slots, const BodyView& bodies, const Contact& c, const Arms& arms) {
-  const Twist &a = slots.twist[slots.slot_of[c.a]], &b = slots.twist[slots.slot_of[c.b]];
+  const Moving &a = slots.moving[slots.slot_of[c.a]], &b = slots.moving[slots.slot_of[c.b]];
   Vec3 v = b.linear + cross(b.angular, arms.b) - a.linear - cross(a.angular, arms.a);
   if (bodies.surface_motion.empty()) return v;
   const Twist belt_a = surface_motion(bodies, c.a), belt_b = surface_motion(bodies, c.b);
@@ -144,28 +144,28 @@ Vec3 ShapeContacts::surface_velocity(const Slots& slots, const BodyView& bodies,
 void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Evaluation& e, Work& w) const {
   ContactBatch& batch = w.batch;
   batch.lead = 0.5 * e.h;
+  const ContactTiming timing{e};
   for (std::size_t k = 0; k < batch.count; ++k) {
     const Entry& entry = entries_[active_[w.first + k]];
     const Contact& c = entry.contact;
-    const Slot a = slots.slot_of[c.a], b = slots.slot_of[c.b];
-    const Inertia &ia = slots.inertia[a], &ib = slots.inertia[b];
+    const Moving &a = slots.moving[slots.slot_of[c.a]], &b = slots.moving[slots.slot_of[c.b]];
     w.arms[k] = arms(slots, c, e.at_contact_point);
     const Vec3 v = surface_velocity(slots, bodies, c, w.arms[k]);
     const double overlap = -c.gap, approach = -dot(v, c.normal);
     const double ra = radius_of(slots, bodies, c.a), rb = radius_of(slots, bodies, c.b);
     batch.overlap[k] = overlap;
     batch.radius[k] = 1.0 / (1.0 / ra + 1.0 / rb);
-    batch.mass[k] = ia.dynamic && ib.dynamic ? ia.mass * ib.mass / (ia.mass + ib.mass) : ia.mass + ib.mass;
+    batch.mass[k] = 1.0 / (a.inverse_mass + b.inverse_mass);
     batch.normal.set(k, c.normal);
     batch.velocity.set(k, v);
-    batch.spin.set(k, slots.twist[b].angular - slots.twist[a].angular);
-    batch.materials[k] = static_cast<std::uint32_t>(ia.material * e.materials + ib.material);
-    const double since = entry.is_new ? time_since(overlap, approach, e.h) : 0.0;
-    batch.ahead[k] = e.ahead(entry.is_new, since);
-    w.acting[k] = acting_part(e, entry.is_new, since, overlap, approach);
+    batch.spin.set(k, b.angular - a.angular);
+    batch.materials[k] = static_cast<std::uint32_t>(a.material * e.materials + b.material);
+    const Acting acting = timing.of(entry.is_new, overlap, approach);
+    batch.ahead[k] = acting.ahead;
+    w.acting[k] = acting.part;
     for (std::size_t j = 0; j < e.history; ++j) batch.history[j][k] = entry.history[j];
-    w.smaller[k] = std::min(ia.dynamic ? bodies.radius[c.a] : std::numeric_limits<double>::infinity(),
-                            ib.dynamic ? bodies.radius[c.b] : std::numeric_limits<double>::infinity());
+    w.smaller[k] = std::min(a.is_dynamic() ? bodies.radius[c.a] : std::numeric_limits<double>::infinity(),
+                            b.is_dynamic() ? bodies.radius[c.b] : std::numeric_limits<double>::infinity());
   }
 }
 

@@ -68,36 +68,33 @@ void Slots::set_order(std::span<const BodyIndex> bodies) {
 
 void Slots::load(const BodyView& bodies, const ShapeSet& shapes, const Executor& executor) {
   const std::size_t n = size();
-  place.resize(n), twist.resize(n), inertia.resize(n);
+  place.resize(n), moving.resize(n), inverse_moment.resize(n);
   old.resize(n), wrench.resize(n), field.resize(n);
   executor.for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       const BodyIndex i = body[k];
       const Shape& shape = shapes.shapes()[bodies.shape[i]];
+      const bool dynamic = bodies.motion[i] == Motion::dynamic;
       place[k] = {bodies.position[i], is_ball(shapes, shape) ? shape.equivalent_radius : 0.0};
-      twist[k] = {bodies.velocity[i], bodies.angular_velocity[i]};
-      const bool dynamic = bodies.motion[i] == Motion::dynamic, even = is_even(bodies.inertia[i]);
-      inertia[k] = {.inverse_mass = dynamic ? 1.0 / bodies.mass[i] : 0.0,
-                    .inverse_moment = dynamic && even ? 1.0 / bodies.inertia[i].x : 0.0,
-                    .mass = dynamic ? bodies.mass[i] : 0.0,
-                    .material = bodies.material[i],
-                    .dynamic = dynamic};
+      moving[k] = {bodies.velocity[i], bodies.angular_velocity[i], dynamic ? 1.0 / bodies.mass[i] : 0.0,
+                   bodies.material[i]};
+      inverse_moment[k] = dynamic && is_even(bodies.inertia[i]) ? 1.0 / bodies.inertia[i].x : 0.0;
     }
   });
   turning.clear(), reach.clear();
   for (Slot k = 0; k < n; ++k) {
     const BodyIndex i = body[k];
-    const bool dynamic = inertia[k].dynamic;
-    if (bodies.motion[i] == Motion::fixed || (place[k].radius > 0.0 && (!dynamic || inertia[k].inverse_moment > 0.0))) {
+    const bool dynamic = moving[k].is_dynamic();
+    if (bodies.motion[i] == Motion::fixed || (place[k].radius > 0.0 && (!dynamic || inverse_moment[k] > 0.0))) {
       continue;
     }
     Turning t{.slot = k, .orientation = bodies.orientation[i], .momentum = {}, .torque = {}, .inverse_inertia = {}};
     if (dynamic) {
       const Vec3 j = bodies.inertia[i];
       t.inverse_inertia = {1.0 / j.x, 1.0 / j.y, 1.0 / j.z};
-      t.momentum = rotate(t.orientation, hadamard(j, rotate_back(t.orientation, twist[k].angular)));
+      t.momentum = rotate(t.orientation, hadamard(j, rotate_back(t.orientation, moving[k].angular)));
     }
-    inertia[k].inverse_moment = 0.0;
+    inverse_moment[k] = 0.0;
     turning.push_back(t);
     reach.push_back(shapes.shapes()[bodies.shape[i]].bounding_radius);
   }
@@ -109,13 +106,13 @@ void Slots::store(const BodyState& bodies, double dt, const Executor& executor) 
       const BodyIndex i = body[k];
       if (bodies.view.motion[i] == Motion::fixed) continue;
       bodies.position[i] = place[k].position;
-      const Vec3 mean = 0.5 * (bodies.angular_velocity[i] + twist[k].angular);
+      const Vec3 mean = 0.5 * (bodies.angular_velocity[i] + moving[k].angular);
       if (place[k].radius > 0.0 && mean != Vec3{}) {
         bodies.orientation[i] = normalized(from_rotation_vector(dt * mean) * bodies.orientation[i]);
       }
-      if (!inertia[k].dynamic) continue;
-      bodies.velocity[i] = twist[k].linear;
-      bodies.angular_velocity[i] = twist[k].angular;
+      if (!moving[k].is_dynamic()) continue;
+      bodies.velocity[i] = moving[k].linear;
+      bodies.angular_velocity[i] = moving[k].angular;
     }
   });
   for (const Turning& t : turning) bodies.orientation[body[t.slot]] = t.orientation;

@@ -27,8 +27,18 @@ struct alignas(32) Place {
   double radius = 0.0;  ///< of a ball [m]
 };
 
-/// Force [N] and torque about the centre of mass [N m], world.
-struct Wrench {
+/// What a contact reads of a body: one line of the cache.
+struct alignas(64) Moving {
+  Vec3 linear;                 ///< of the centre of mass, predicted for the time of the forces [m/s]
+  Vec3 angular;                ///< the same [rad/s], world
+  double inverse_mass = 0.0;   ///< [1/kg]; 0 where forces do not move the body
+  std::uint32_t material = 0;  ///< index into Materials
+
+  [[nodiscard]] bool is_dynamic() const { return inverse_mass > 0.0; }
+};
+
+/// Force [N] and torque about the centre of mass [N m], world; one line of the cache, too.
+struct alignas(64) Wrench {
   Vec3 force;
   Vec3 torque;
 
@@ -37,15 +47,6 @@ struct Wrench {
     torque += o.torque;
     return *this;
   }
-};
-
-/// What does not change in a step.
-struct Inertia {
-  double inverse_mass = 0.0;    ///< [1/kg]; 0 where forces do not move a body
-  double inverse_moment = 0.0;  ///< of bodies whose three moments are equal [1/(kg m2)]; else 0
-  double mass = 0.0;            ///< [kg]; 0 where forces do not move a body
-  std::uint32_t material = 0;   ///< index into Materials
-  bool dynamic = false;
 };
 
 /// A body whose orientation matters: its shape is no ball. Dynamic ones keep their angular momentum.
@@ -62,13 +63,14 @@ struct Slots {
   std::vector<BodyIndex> body;
   std::vector<Slot> slot_of;  ///< by body
   std::vector<Place> place;
-  std::vector<Twist> twist;    ///< predicted for the time of the forces [m/s], [rad/s]
-  std::vector<Twist> old;      ///< accelerations at the last evaluation [m/s2], [rad/s2]
-  std::vector<Wrench> wrench;  ///< of contacts
-  std::vector<Wrench> field;   ///< of force fields
-  std::vector<Inertia> inertia;
-  std::vector<Turning> turning;  ///< by slot
-  std::vector<double> reach;     ///< by entry of turning: farthest point from the centre of mass [m]
+  std::vector<Moving> moving;
+  std::vector<Twist> twist;            ///< predicted for the time of the forces [m/s], [rad/s]
+  std::vector<Twist> old;              ///< accelerations at the last evaluation [m/s2], [rad/s2]
+  std::vector<Wrench> wrench;          ///< of contacts
+  std::vector<Wrench> field;           ///< of force fields
+  std::vector<double> inverse_moment;  ///< where the three moments are equal [1/(kg m2)]; else 0
+  std::vector<Turning> turning;        ///< by slot
+  std::vector<double> reach;           ///< by entry of turning: farthest point from the centre of mass [m]
 
   [[nodiscard]] std::size_t size() const { return body.size(); }
 

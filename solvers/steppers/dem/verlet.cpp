@@ -34,28 +34,28 @@ void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
   const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
   double fastest2 = 0.0;
   for (std::size_t k = first; k < last; ++k) {
-    Twist& twist = slots.twist[k];
+    Moving& body = slots.moving[k];
     Place& place = slots.place[k];
     const Wrench& contact = slots.wrench[k];
-    const Inertia& body = slots.inertia[k];
-    if (!body.dynamic) {
-      out.boundary_work -= work.impulse_time * (dot(contact.force, twist.linear) + dot(contact.torque, twist.angular));
-      place.position += ahead * twist.linear;
-      fastest2 = std::max(fastest2, squared_norm(twist.linear));
+    if (!body.is_dynamic()) {
+      out.boundary_work -= work.impulse_time * (dot(contact.force, body.linear) + dot(contact.torque, body.angular));
+      place.position += ahead * body.linear;
+      fastest2 = std::max(fastest2, squared_norm(body.linear));
       continue;
     }
     const Wrench& field = slots.field[k];
     Twist& old = slots.old[k];
     const Vec3 a = body.inverse_mass * (contact.force + field.force);
-    const Vec3 alpha = body.inverse_moment * (contact.torque + field.torque);
-    const Vec3 v = twist.linear + correct * (a - old.linear), w = twist.angular + correct * (alpha - old.angular);
+    const Vec3 alpha = slots.inverse_moment[k] * (contact.torque + field.torque);
+    const Vec3 v = body.linear + correct * (a - old.linear), w = body.angular + correct * (alpha - old.angular);
     const Vec3 mean = v + work.shift * a, mean_spin = w + work.shift * alpha;
     out.contact_work += work.impulse_time * (dot(contact.force, mean) + dot(contact.torque, mean_spin));
     out.force_work += work.impulse_time * (dot(field.force, mean) + dot(field.torque, mean_spin));
     place.position += ahead * (v + (0.5 * ahead) * a);
-    twist = {v + ahead * a, w + ahead * alpha};
+    body.linear = v + ahead * a;
+    body.angular = w + ahead * alpha;
     old = {a, alpha};
-    fastest2 = std::max(fastest2, squared_norm(twist.linear));
+    fastest2 = std::max(fastest2, squared_norm(body.linear));
   }
   out.fastest = std::max(out.fastest, std::sqrt(fastest2));
 }
@@ -66,9 +66,9 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
   const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
   for (std::size_t k = first; k < last; ++k) {
     Turning& t = slots.turning[k];
-    Vec3& spin = slots.twist[t.slot].angular;
+    Vec3& spin = slots.moving[t.slot].angular;
     Quat& q = t.orientation;
-    if (slots.inertia[t.slot].dynamic) {
+    if (slots.moving[t.slot].is_dynamic()) {
       const Vec3 torque = slots.wrench[t.slot].torque + slots.field[t.slot].torque;
       t.momentum += correct * (torque - t.torque);
       const Vec3 half = t.momentum + (0.5 * ahead) * torque;
@@ -85,7 +85,7 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
       q = normalized(from_rotation_vector(ahead * spin) * q);
     }
     const double turn = norm(spin);
-    if (turn > 0.0) out.fastest = std::max(out.fastest, norm(slots.twist[t.slot].linear) + turn * slots.reach[k]);
+    if (turn > 0.0) out.fastest = std::max(out.fastest, norm(slots.moving[t.slot].linear) + turn * slots.reach[k]);
   }
 }
 
