@@ -23,7 +23,7 @@ using Lanes3 = ContactBatch::Lanes3;
 struct BallContacts::Work {
   ContactBatch batch;
   std::array<std::uint32_t, kLanes> pair;  // of each contact
-  alignas(64) Lane distance2, radius_a, radius_b, arm_a, arm_b, inverse_mass, is_new, acting;
+  alignas(64) Lane distance2, radius_a, radius_b, arm_a, arm_b, inverse_mass, is_new, leaving, acting;
   Lanes3 apart, rim;  // rim: sum of arm times angular velocity [m/s]
   ContactTally tally;
 };
@@ -54,7 +54,9 @@ void BallContacts::gather(const Slots& slots, const Evaluation& e, Work& w) cons
     batch.velocity.set(k, b.linear - a.linear);
     w.rim.set(k, w.arm_a[k] * a.angular + w.arm_b[k] * b.angular);
     w.inverse_mass[k] = a.inverse_mass + b.inverse_mass;
-    w.is_new[k] = (flags_[w.pair[k]] & kTouching) == 0 ? 1.0 : 0.0;
+    const std::uint8_t flags = flags_[w.pair[k]];
+    w.is_new[k] = (flags & kTouching) == 0 ? 1.0 : 0.0;
+    w.leaving[k] = (flags & kLeaving) == 0 ? 0.0 : 1.0;
     batch.materials[k] = static_cast<std::uint32_t>(a.material * e.materials + b.material);
     if (rolls_) batch.spin.set(k, b.angular - a.angular);
   }
@@ -76,9 +78,11 @@ void BallContacts::combine(const Evaluation& e, Work& w) {
                  vz = batch.velocity.z[k] - (rx * ny - ry * nx);
     batch.velocity.x[k] = vx, batch.velocity.y[k] = vy, batch.velocity.z[k] = vz;
     batch.mass[k] = 1.0 / w.inverse_mass[k];
-    const Acting acting = timing.of(w.is_new[k] != 0.0, batch.overlap[k], -(nx * vx + ny * vy + nz * vz));
+    const Acting acting =
+        timing.of({w.is_new[k] != 0.0, w.leaving[k] != 0.0}, batch.overlap[k], -(nx * vx + ny * vy + nz * vz));
     batch.ahead[k] = acting.ahead;
     w.acting[k] = acting.part;
+    w.leaving[k] = acting.leaving ? 1.0 : 0.0;
   }
 }
 
@@ -109,7 +113,7 @@ void BallContacts::scatter(Slots& slots, const Evaluation& e, std::size_t chunk,
       impulse[3] += time * torque.x, impulse[4] += time * torque.y, impulse[5] += time * torque.z;
     }
     if ((flags_[at] & kTouched) == 0) before_[at] = batch.velocity[k];
-    flags_[at] = kTouching | kTouched;
+    flags_[at] = static_cast<std::uint8_t>(kTouching | kTouched | (w.leaving[k] != 0.0 ? kLeaving : 0));
     if (e.stage != Stage::last || batch.overlap[k] <= 0.0) continue;
     w.tally.add(batch.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
   }
@@ -117,7 +121,7 @@ void BallContacts::scatter(Slots& slots, const Evaluation& e, std::size_t chunk,
 
 /// The surfaces are apart: the next contact is a new one.
 void BallContacts::let_go(std::size_t pair) {
-  flags_[pair] = static_cast<std::uint8_t>(flags_[pair] & ~kTouching);
+  flags_[pair] = static_cast<std::uint8_t>(flags_[pair] & kTouched);
   std::fill_n(records_.begin() + static_cast<std::ptrdiff_t>(stride_ * pair), history_, 0.0);
 }
 

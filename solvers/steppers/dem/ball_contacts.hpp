@@ -60,7 +60,7 @@ class BallContacts {
     Slot slot = 0;
     std::uint32_t ghost = 0;
   };
-  enum Flag : std::uint8_t { kTouching = 1, kTouched = 2 };
+  enum Flag : std::uint8_t { kTouching = 1, kTouched = 2, kLeaving = 4 };
   struct Work;
 
   void order_pairs(const Slots& slots);

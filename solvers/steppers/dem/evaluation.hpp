@@ -26,14 +26,21 @@ struct Evaluation {
 
 /// How far ahead the springs of a contact are to be carried, and how much of what the kick assumes it acts.
 struct Acting {
-  double ahead = 0.0;  ///< ContactBatch::ahead [s]
-  double part = 1.0;   ///< [1]
+  double ahead = 0.0;    ///< ContactBatch::ahead [s]
+  double part = 1.0;     ///< [1]
+  bool leaving = false;  ///< the force stands for all of the time until the next evaluation
+};
+
+/// What the evaluation before says of a contact.
+struct Earlier {
+  bool is_new = true;    ///< it was not there
+  bool leaving = false;  ///< Acting::leaving
 };
 
 /// A force of an evaluation stands for half a step on either side of it where the contact lasts so long; for the whole time
-/// since the surfaces met where the contact is new, and until they part where that comes within a step. Without this, a
-/// dashpot, whose force jumps when surfaces meet, is right to first order in the step only. Without branches, for loops over
-/// lanes.
+/// since the surfaces met where the contact is new; and, where they may part before the evaluation after the next, for all of
+/// the time until they part or that next one, which then does not look back. Without this, a dashpot, whose force jumps when
+/// surfaces meet, is right to first order in the step only. Without branches, for loops over lanes.
 class ContactTiming {
  public:
   explicit ContactTiming(const Evaluation& e)
@@ -47,22 +54,25 @@ class ContactTiming {
         of_after_{e.stage == Stage::last    ? 0.0
                   : e.stage == Stage::first ? 2.0 / e.h
                                             : 1.0 / e.h},
+        last_{e.stage == Stage::last},
         // A neck acts beyond the surfaces, and begins and ends when the law says so.
         whole_{e.reach > 0.0} {}
 
   /// Of a contact that closes with `approach` [m/s].
-  [[nodiscard]] Acting of(bool is_new, double overlap, double approach) const {
+  [[nodiscard]] Acting of(Earlier earlier, double overlap, double approach) const {
     const double way = h_ * std::abs(approach), closed = std::max(overlap, 0.0);
     const double time = closed < way ? h_ * (closed / way) : h_;  // to cover the overlap, at most a step
     const double since = approach > 0.0 ? time : h_;
-    const double before = is_new ? since : half_;
-    const double after = approach < 0.0 && closed < way ? time : half_;
-    return {is_new ? new_ahead_ * since : old_ahead_, whole_ ? 1.0 : of_before_ * before + of_after_ * after};
+    const bool leaving = approach < 0.0 && closed < 2.0 * way;
+    const double before = earlier.is_new ? since : earlier.leaving ? 0.0 : half_;
+    const double after = leaving ? time : half_;
+    return {earlier.is_new ? new_ahead_ * since : old_ahead_, whole_ ? 1.0 : of_before_ * before + of_after_ * after,
+            leaving && !last_};
   }
 
  private:
   double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_;
-  bool whole_;
+  bool last_, whole_;
 };
 
 /// Part of the step that the impulse of an evaluation's force belongs to [s].

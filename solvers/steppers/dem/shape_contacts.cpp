@@ -32,6 +32,7 @@ struct ShapeContacts::Work {
   ContactBatch batch;
   std::size_t first = 0;  // of them
   std::array<double, kLanes> acting;
+  std::array<bool, kLanes> leaving;
   std::array<Arms, kLanes> arms;
   std::array<double, kLanes> smaller;
   ContactTally tally;
@@ -114,6 +115,7 @@ void ShapeContacts::inherit(std::size_t first, std::size_t last) {
     }
     born.history = nearest->history;
     born.before = nearest->before;
+    born.leaving = nearest->leaving;
     born.is_new = false;
     nearest->is_new = false;
   }
@@ -160,9 +162,10 @@ void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Eva
     batch.velocity.set(k, v);
     batch.spin.set(k, b.angular - a.angular);
     batch.materials[k] = static_cast<std::uint32_t>(a.material * e.materials + b.material);
-    const Acting acting = timing.of(entry.is_new, overlap, approach);
+    const Acting acting = timing.of({entry.is_new, entry.leaving}, overlap, approach);
     batch.ahead[k] = acting.ahead;
     w.acting[k] = acting.part;
+    w.leaving[k] = acting.leaving;
     for (std::size_t j = 0; j < e.history; ++j) batch.history[j][k] = entry.history[j];
     w.smaller[k] = std::min(a.is_dynamic() ? bodies.radius[c.a] : std::numeric_limits<double>::infinity(),
                             b.is_dynamic() ? bodies.radius[c.b] : std::numeric_limits<double>::infinity());
@@ -178,6 +181,7 @@ void ShapeContacts::scatter(const Evaluation& e, Work& w) {
     on_a_[w.first + k] = {-force, cross(w.arms[k].a, -force) - torque};
     on_b_[w.first + k] = {force, cross(w.arms[k].b, force) + torque};
     if (entry.impulse == Vec3{} && (entry.is_new || e.stage == Stage::first)) entry.before = w.batch.velocity[k];
+    entry.leaving = w.leaving[k];
     entry.impulse += time * force;
     entry.moment += time * torque;
     for (std::size_t j = 0; j < e.history; ++j) entry.history[j] = w.batch.history[j][k];

@@ -39,6 +39,7 @@ class ShapeContacts {
     Contact contact;        ///< as last found
     bool touching = false;  ///< at the last evaluation
     bool is_new = true;     ///< it was not there at the evaluation before
+    bool leaving = false;   ///< Acting::leaving
     std::array<double, ContactBatch::kMostHistory> history{};
     Vec3 impulse;  ///< [N s], world
     Vec3 moment;   ///< [N m s], world
