@@ -84,7 +84,9 @@ ColliderPair* CollisionPipeline::keep_spheres(std::span<const CandidatePair> bat
       speed2[k] = squared_norm(velocity[a] - velocity[b]);
     }
     // As reach_of_spheres() and swept_spheres_meet() have it.
-    for (std::size_t k = 0; k < kSide; ++k) reach[k] = rule_.dt * std::sqrt(speed2[k]) + rule_.slack * least[k];
+    for (std::size_t k = 0; k < kSide; ++k) {
+      reach[k] = rule_.dt * std::sqrt(speed2[k]) + rule_.slack * least[k] + rule_.skin;
+    }
     for (std::size_t k = 0; k < count; ++k) {
       const auto [a, b] = batch[first + k];
       if (movable[a] == 0 && movable[b] == 0) continue;

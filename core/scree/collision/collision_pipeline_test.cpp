@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -35,6 +36,21 @@ class AllPairs : public BroadPhase {
 
  private:
   unsigned calls_ = 0;
+};
+
+/// All pairs of balls, without boxes.
+class AllPairsOfBalls : public BroadPhase {
+ public:
+  [[nodiscard]] bool takes_balls_alone() const override { return true; }
+  void find_pairs(const BoxView& boxes, const Executor&, std::vector<CandidatePair>& out) override {
+    const auto n = static_cast<ColliderIndex>(boxes.size());
+    const auto is_plane = [&](ColliderIndex i) { return std::isinf(boxes.ball[i].radius); };
+    for (ColliderIndex i = 0; i < n; ++i) {
+      for (ColliderIndex j = 0; j < i; ++j) {
+        if (!is_plane(i) && !is_plane(j)) out.push_back({i, j});
+      }
+    }
+  }
 };
 
 /// Two contacts a pair, with the pair's reach as gap, so that tests see what the pipeline asked for.
@@ -230,6 +246,27 @@ TEST(CollisionPipeline, result_depends_on_the_bodies_only) {
     }
     EXPECT_EQ(pipeline.counts().contacts, expected.size());
     EXPECT_EQ(pipeline.counts().pairs * 2, expected.size());
+  }
+}
+
+// Law: neighbours are what lies within the skin, whether or not boxes are looked at; velocities do not matter.
+TEST(CollisionPipeline, neighbours_are_within_the_skin) {
+  Scene scene;
+  AllPairsOfBalls balls_alone;
+  scene.add(shape_data(plane_data()), {0, 0, -1.09}, {}, {}, Motion::fixed);
+  scene.add(ball(1.0), {0, 0, 0}, {9, 9, 9});
+  scene.add(ball(1.0), {2.09, 0, 0});
+  scene.add(ball(1.0), {0, 2.11, 0});
+  scene.add(ball(1.0), {-1.99, 0, 0.02});
+  for (BroadPhase* broad : std::initializer_list<BroadPhase*>{&scene.broad, &balls_alone}) {
+    EchoPhase narrow{kAllKinds};
+    CollisionPipeline pipeline{scene.shapes, *broad, {&narrow}, scene.executor};
+    const NeighbourView found = pipeline.find_neighbours(scene.bodies.view(), 0.1);
+    ASSERT_EQ(found.balls.size(), 2u);
+    EXPECT_EQ(found.balls[0].a, 1u);
+    EXPECT_EQ(found.balls[0].b, 2u);
+    EXPECT_EQ(found.balls[1].b, 4u);
+    EXPECT_EQ(found.others.size(), 4u) << "the plane and three balls; one is 2 cm too high";
   }
 }
 
