@@ -150,4 +150,22 @@ void CutView::clip(Surface& surface, std::size_t first) const {
   }
 }
 
+void drop_unused_points(Surface& surface) {
+  constexpr std::uint32_t kUnused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> number(surface.points.size(), kUnused);
+  for (const auto& t : surface.triangles) {
+    for (const std::uint32_t corner : t) number[corner] = 0;
+  }
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == kUnused) continue;
+    surface.points[next] = surface.points[i];
+    number[i] = next++;
+  }
+  surface.points.resize(next);
+  for (auto& t : surface.triangles) {
+    for (std::uint32_t& corner : t) corner = number[corner];
+  }
+}
+
 }  // namespace scree

@@ -47,7 +47,7 @@ class CutView {
   /// The same for what is cut where the plane goes, or left whole: planes that show what they cut keep all of it.
   [[nodiscard]] bool keeps_point(const Vec3& p) const;
   /// Cuts triangles [first, end) of a surface along planes and the faces of a box; along a cylinder whole triangles go or stay by
-  /// their centres. Planes that show what they cut keep the triangles that they cross.
+  /// their centres. Planes that show what they cut keep the triangles that they cross. Points stay, used or not.
   void clip(Surface& surface, std::size_t first) const;
 
  private:
@@ -59,5 +59,8 @@ class CutView {
   CutCylinder cylinder_;
   std::vector<BodyId> hidden_, walls_;  // sorted
 };
+
+/// Takes out the points that no triangle has, as clip() leaves them.
+void drop_unused_points(Surface& surface);
 
 }  // namespace scree

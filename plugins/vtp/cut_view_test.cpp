@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <cmath>
 
 #include "scree/config/validate.hpp"
 #include "support/fake_scene_services.hpp"
@@ -73,6 +73,9 @@ TEST(cut_view, a_box_and_a_cylinder_keep_what_is_inside) {
   Surface surface = square();
   box.clip(surface, 0);
   EXPECT_NEAR(area(surface), 0.5, 1e-15);
+  drop_unused_points(surface);
+  EXPECT_NEAR(area(surface), 0.5, 1e-15);
+  for (const Vec3& p : surface.points) EXPECT_LE(std::abs(p.x), 0.5);
   const CutView cylinder =
       view_of("region = { type = 'cylinder', from = [0, 0, 0], to = [0, 0, 2], radius = 0.5 }", services);
   EXPECT_TRUE(cylinder.keeps({0.3, 0.3, 1.9}, 0.0));

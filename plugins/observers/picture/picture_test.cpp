@@ -94,6 +94,24 @@ TEST_F(PictureObserverTest, of_a_scene_has_walls_with_names_and_grains_from_back
   EXPECT_EQ(seen.colours, (std::vector<std::size_t>{2, 0, 1}));
 }
 
+// Grains at z = 0, -0.1, -0.2; the roll about the origin.
+TEST_F(PictureObserverTest, leaves_out_what_is_cut_away_and_what_is_hidden) {
+  const auto view = [&](const std::string& options) {
+    View made;
+    made.cut.setup(options_from_text(options, CutView::parameters()), services);
+    return made;
+  };
+  const Picture cut = scene(view("plane = [{ point = [0, 0, -0.05], normal = [0, 0, 1] }]"));
+  EXPECT_EQ(cut.grains.size(), 2u);
+  EXPECT_TRUE(cut.walls.empty());
+  const Picture slice = scene(view("plane = [{ point = [0, 0, -0.095], normal = [0, 0, 1], show = 'cut' }]"));
+  EXPECT_EQ(slice.grains.size(), 1u);
+  EXPECT_EQ(slice.walls.size(), 1u);
+  const Picture hidden = scene(view("hide = ['roll_<1>']"));
+  EXPECT_TRUE(hidden.walls.empty());
+  EXPECT_EQ(hidden.grains.size(), 3u);
+}
+
 TEST_F(PictureObserverTest, shows_the_sense_of_a_turning_cylinder_as_the_viewer_sees_it) {
   const Picture front = scene({});
   ASSERT_EQ(front.turns.size(), 1u);

@@ -132,6 +132,7 @@ void VtkObserver::write_walls(const Observation& now) {
     material.resize(surface.triangles.size(), static_cast<std::int32_t>(bodies.material[i]));
   }
   if (surface.triangles.empty()) return;
+  drop_unused_points(surface);
   PolyData data;
   data.time = now.time;
   data.texts = texts();

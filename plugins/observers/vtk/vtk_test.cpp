@@ -187,6 +187,31 @@ TEST_F(VtkObserverTest, walls_are_written_again_only_when_they_moved) {
   EXPECT_EQ(files("particles_").size(), 5u);
 }
 
+// Particles 10, 11, 12 stand at x = 0, 0.1, 0.2; the wall reaches from -0.1 to 0.1: the plane x = 0.05 halves one and takes two.
+TEST_F(VtkObserverTest, a_plane_takes_particles_and_parts_of_walls_away) {
+  services.add_body("wall", {1, {}, {}});
+  services.add_body("first", {10, {}, {}});
+  VtkObserver cut = make("interval = 0.1\nplane = [{ point = [0.05, 0, 0], normal = [1, 0, 0] }]");
+  VtkObserver hidden = make("interval = 0.1\nhide = ['wall']\nas_walls = ['first']");
+  cut.setup(services, folder);
+  services.set_part_name("hidden");
+  hidden.setup(services, folder);
+  observe(cut, 1, 1);
+  observe(hidden, 1, 1);
+  const std::string command =
+      "/usr/bin/python3 -c \"import sys, vtk\n"
+      "def read(name):\n"
+      "    r = vtk.vtkXMLPolyDataReader(); r.SetFileName(sys.argv[1] + '/' + name); r.Update(); return r.GetOutput()\n"
+      "d = read('particles_00000001.vtp')\n"
+      "assert [d.GetPointData().GetArray('id').GetValue(i) for i in range(d.GetNumberOfPoints())] == [10]\n"
+      "b = read('walls_00000001.vtp').GetBounds(); assert abs(b[0] + 0.1) < 1e-12 and abs(b[1] - 0.05) < 1e-12, b\n"
+      "d = read('particles_hidden_00000001.vtp')\n"
+      "assert [d.GetPointData().GetArray('id').GetValue(i) for i in range(d.GetNumberOfPoints())] == [11, 12]\n"
+      "b = read('walls_hidden_00000001.vtp').GetBounds(); assert b[1] < 0.01, b\" " +
+      folder.string();
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
 TEST_F(VtkObserverTest, two_observers_have_files_of_their_own) {
   VtkObserver plain = make("interval = 0.1"), named = make("interval = 0.2");
   services.set_part_name("vtk");

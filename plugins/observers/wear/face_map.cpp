@@ -21,7 +21,9 @@ double area_of(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
 }
 
-TriangleMesh surface_mesh(const ShapeSet& shapes, const Primitive& primitive, const FaceOptions& options) {
+// A hollow cylinder is closed: its lids wear as well.
+TriangleMesh surface_mesh(const ShapeSet& shapes, Primitive primitive, const FaceOptions& options) {
+  primitive.hollow = false;
   Surface surface;
   append_surface(shapes, primitive, {}, SurfaceOptions{options.segments, options.plane_size}, surface);
   return {std::move(surface.points), std::move(surface.triangles)};
