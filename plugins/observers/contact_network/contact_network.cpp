@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 
 #include "plot/figure.hpp"
@@ -70,15 +69,7 @@ double ForceHistogram::density(std::size_t bin) const {
 ContactNetwork::ContactNetwork(const Options& options)
     : options_{options},
       least_{static_cast<std::uint32_t>(options.integer("least_contacts"))},
-      from_{options.number("from")} {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  region_.lower = options.has("lower") ? options.vector("lower") : Vec3{-kFar, -kFar, -kFar};
-  region_.upper = options.has("upper") ? options.vector("upper") : Vec3{kFar, kFar, kFar};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(region_.lower[axis] < region_.upper[axis]))
-      throw options.error("upper", "must be greater than 'lower' in x, y and z");
-  }
-}
+      from_{options.number("from")} {}
 
 std::vector<Parameter> ContactNetwork::parameters() {
   return {
@@ -94,6 +85,7 @@ std::vector<Parameter> ContactNetwork::parameters() {
 
 void ContactNetwork::setup(SceneServices& services, const std::filesystem::path& results) {
   materials_ = &services.materials();
+  region_ = Region{options_, services};
   row_every_ = steps_between(options_.number("interval"), services.time_step());
   if (options_.has("file_interval")) {
     file_every_ = steps_between(options_.number("file_interval"), services.time_step());
@@ -108,6 +100,7 @@ void ContactNetwork::observe(const Observation& now, Attributes&) {
   const bool row = now.step % row_every_ == 0;
   const bool file = file_every_ > 0 && now.step % file_every_ == 0 && !results_.empty();
   if (!row && !file) return;
+  region_.update(now.bodies);
   build_network(now.bodies, now.contacts, now.dt, *materials_, region_, network_);
   if (row) add_row(now);
   if (file) write_file(now);

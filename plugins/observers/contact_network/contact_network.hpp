@@ -50,7 +50,7 @@ class ContactNetwork final : public Observer {
   void write_figures() const;
 
   Options options_;
-  NetworkRegion region_;
+  Region region_;
   std::uint32_t least_;  // links of a grain that is held
   double from_;          // distributions begin [s]
 

@@ -30,15 +30,8 @@ Link link_of(const ContactView& contacts, std::size_t first, std::size_t last, d
 
 }  // namespace
 
-bool NetworkRegion::contains(const Vec3& p) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(p[axis] >= lower[axis] && p[axis] <= upper[axis])) return false;
-  }
-  return true;
-}
-
 void build_network(const BodyView& bodies, const ContactView& contacts, double dt, const Materials& materials,
-                   const NetworkRegion& region, Network& network) {
+                   const Region& region, Network& network) {
   network.links.clear();
   network.grain.assign(bodies.size(), 0);
   network.degree.assign(bodies.size(), 0);

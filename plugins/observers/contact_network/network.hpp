@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/region.hpp"
 #include "contact_study/contact_motion.hpp"
 #include "scree/math/mat3.hpp"
 
@@ -27,15 +28,9 @@ struct Network {
   std::vector<std::uint32_t> degree;  ///< by body: links, those to walls too
 };
 
-/// Bounds between which centres of grains count [m], world.
-struct NetworkRegion {
-  Vec3 lower, upper;
-  [[nodiscard]] bool contains(const Vec3& p) const;
-};
-
 /// Fills `network`; workspaces are kept.
 void build_network(const BodyView& bodies, const ContactView& contacts, double dt, const Materials& materials,
-                   const NetworkRegion& region, Network& network);
+                   const Region& region, Network& network);
 
 /// Coordination of grains: mean number of links of a grain.
 struct Coordination {

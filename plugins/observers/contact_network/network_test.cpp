@@ -6,14 +6,15 @@
 #include <cmath>
 
 #include "contact_network.hpp"
+#include "scree/config/validate.hpp"
 #include "scree/model/material.hpp"
+#include "support/fake_scene_services.hpp"
 #include "support/test_bodies.hpp"
 
 namespace scree {
 namespace {
 
 constexpr double kStep = 1e-3, kFriction = 0.5;
-const NetworkRegion kAll{{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}};
 
 /// n^3 spheres of diameter 1 on a cubic lattice, every neighbour pressed with 1 N.
 struct Lattice {
@@ -38,7 +39,7 @@ struct Lattice {
     impulse.push_back({force * kStep, shear * force * kStep, 0.0});
     velocity.emplace_back();
   }
-  [[nodiscard]] Network network(const NetworkRegion& region = kAll) const {
+  [[nodiscard]] Network network(const Region& region = {}) const {
     Network out;
     build_network(bodies.view(), {contact, impulse, velocity, velocity}, kStep, materials, region, out);
     return out;
@@ -72,7 +73,11 @@ TEST(network, simple_cubic_lattice_is_counted_by_hand) {
 // The inner 3^3 of it: each has six links, those to grains outside of the region too.
 TEST(network, grains_of_a_region_keep_their_links_to_others) {
   const Lattice lattice{5};
-  const Network network = lattice.network({{0.5, 0.5, 0.5}, {3.5, 3.5, 3.5}});
+  test::FakeSceneServices services;
+  const Region inside{
+      options_from_text("region = { lower = [0.5, 0.5, 0.5], upper = [3.5, 3.5, 3.5] }", {Region::parameter()}),
+      services};
+  const Network network = lattice.network(inside);
   const Coordination grains = coordination(network, 3);
   EXPECT_EQ(grains.grains, 27u);
   EXPECT_DOUBLE_EQ(grains.mean, 6.0);
