@@ -78,8 +78,7 @@ std::vector<Parameter> ContactNetwork::parameters() {
           .above(0.0)
           .optional(),
       Parameter::number("from", "s", "distributions hold what is seen from this time on").at_least(0.0).by_default(0.0),
-      Parameter::vector("lower", "m", "only grains with centres above this corner count").optional(),
-      Parameter::vector("upper", "m", "and below this one").optional(),
+      Region::parameter(),
       Parameter::integer("least_contacts", "grains with fewer are rattlers").at_least(1).by_default(4)};
 }
 
