@@ -1,0 +1,45 @@
+#include "granular/cohesion.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace scree::granular {
+
+Parameter cohesion_parameter(bool knows_modulus) {
+  std::vector<std::string> words{"none", "sced", "dmt"};
+  if (knows_modulus) words.emplace_back("jkr");
+  return Parameter::choice("cohesion", words,
+                           knows_modulus ? "attraction of bodies that touch: none, of an energy density (sced), or of "
+                                           "elastic spheres with a surface energy (dmt: stiff and small, jkr: soft and "
+                                           "large)"
+                                         : "attraction of bodies that touch: none, of an energy density (sced), or of "
+                                           "spheres with a surface energy (dmt)")
+      .by_default("none");
+}
+
+Cohesion cohesion_of(const Options& options) {
+  const std::string& word = options.text("cohesion");
+  if (word == "sced") return Cohesion::sced;
+  if (word == "dmt") return Cohesion::dmt;
+  return word == "jkr" ? Cohesion::jkr : Cohesion::none;
+}
+
+double cohesion_of_pair(Cohesion cohesion, const ContactMaterial& pair) {
+  if (cohesion == Cohesion::none) return 0.0;
+  return cohesion == Cohesion::sced ? pair.cohesion_energy_density : pair.surface_energy;
+}
+
+void add_cohesion(Cohesion cohesion, const PairColumn& column, const ContactBatch& __restrict batch,
+                  ContactLanes& __restrict lanes) {
+  if (cohesion != Cohesion::sced && cohesion != Cohesion::dmt) return;
+  alignas(64) Lane energy;
+  spread(column, batch, energy);
+  const bool by_area = cohesion == Cohesion::sced;
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const double depth = by_area ? std::max(batch.overlap[k], 0.0) : 1.0;
+    const double pull = 2.0 * std::numbers::pi * batch.radius[k] * energy[k] * depth;
+    lanes.normal[k] -= lanes.stiffness[k] > 0.0 ? pull : 0.0;
+  }
+}
+
+}  // namespace scree::granular
