@@ -7,6 +7,7 @@
 
 #include "plot/axis_map.hpp"
 #include "plot/figure.hpp"
+#include "plot/heat_map.hpp"
 #include "scree/base/error.hpp"
 
 namespace scree::plot {
@@ -111,6 +112,20 @@ TEST_F(FigureFilesTest, name_the_file_that_could_not_be_written) {
 TEST_F(FigureFilesTest, refuse_a_histogram_without_its_last_edge) {
   figure.series[1].x.pop_back();
   EXPECT_THROW(write_figure(figure, folder / "test"), std::logic_error);
+}
+
+// A page of 1 x 1 cells, one at the lowest value, one at the highest and one without: dark, bright and white.
+TEST_F(FigureFilesTest, colours_of_a_heat_map_follow_its_values) {
+  HeatMap map;
+  map.x_range = map.y_range = {0.0, 1.0};
+  map.columns = 2;
+  map.values = {0.0, 1.0, 2.0, std::nan("")};
+  write_heat_map(map, folder / "map");
+  const std::string svg = read(folder / "map.svg");
+  EXPECT_NE(svg.find("26.7%,0.5%,32.9%"), std::string::npos) << "the lowest is the first colour of viridis";
+  EXPECT_NE(svg.find("99.3%,90.6%,14.4%"), std::string::npos) << "the highest is the last";
+  map.columns = 3;
+  EXPECT_THROW(write_heat_map(map, folder / "map"), std::logic_error);
 }
 
 }  // namespace

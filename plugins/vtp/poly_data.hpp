@@ -1,8 +1,5 @@
 // PolyData: points, vertices or triangles, and named arrays, written as a VTK XML file (.vtp).
-//
-// Arrays go to an appended raw block, each divided into blocks of at most kBlockSize bytes and compressed with zlib, as
-// "VTK File Formats" describes it: [number of blocks, size, size of the last if smaller, compressed sizes...] as
-// UInt64, then the blocks. Readers: VTK, ParaView, PyVista, meshio.
+// Readers: VTK, ParaView, PyVista, meshio.
 #pragma once
 
 #include <array>
@@ -32,6 +29,8 @@ struct DataArray {
 [[nodiscard]] DataArray to_array(std::string name, std::span<const Vec3> values, Precision precision);
 /// Four components, w first.
 [[nodiscard]] DataArray to_array(std::string name, std::span<const Quat> values, Precision precision);
+/// Nine components, row by row.
+[[nodiscard]] DataArray to_array(std::string name, std::span<const Mat3> values, Precision precision);
 [[nodiscard]] DataArray to_array(std::string name, std::span<const std::uint64_t> values);
 [[nodiscard]] DataArray to_array(std::string name, std::span<const std::int32_t> values);
 
