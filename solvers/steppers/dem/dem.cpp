@@ -62,11 +62,14 @@ StepSummary Dem::step(StepServices& services, const BodyState& bodies, double ti
     const dem::Stage stage = k == 0 ? dem::Stage::first : k == sub_steps_ ? dem::Stage::last : dem::Stage::middle;
     if (k == 0 || !steady) ask_fields(call, time + static_cast<double>(k) * h_);
     tally = ask_contacts(call, stage);
+    const bool drifts = stage != dem::Stage::last;
+    if (drifts && !joints_.empty()) joints_.before(slots_, bodies);
     const dem::Motions moved = verlet_.advance(slots_, h_, stage, services.executor());
     work.contact_work += moved.contact_work;
     work.boundary_work += moved.boundary_work;
     work.force_work += moved.force_work;
-    if (stage != dem::Stage::last) watch_drift(call, h_ * moved.fastest);
+    if (drifts && !joints_.empty()) joints_.after(slots_, bodies.view, time + static_cast<double>(k) * h_, h_);
+    if (drifts) watch_drift(call, h_ * moved.fastest);
   }
   slots_.store(bodies, unstored_, services.executor());
   StepSummary summary;
@@ -87,7 +90,8 @@ void Dem::take_over(const Call& call) {
     steps_since_sort_ = 0;
     list_is_good_ = false;
   }
-  slots_.load(bodies, scene_->shapes(), call.services.executor());
+  joints_.begin_step(call.services.machine(), bodies);
+  slots_.load(bodies, scene_->shapes(), joints_.bodies(), call.services.executor());
   balls_.begin_step();
   shapes_.begin_step(bodies);
   if (!list_is_good_) find_neighbours(call);
@@ -243,7 +247,7 @@ void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const d
   summary.work = {.contact_loss = work.boundary_work - work.contact_work,
                   .boundary_work = work.boundary_work,
                   .force_work = work.force_work,
-                  .joint_work = 0.0};
+                  .joint_work = joints_.work()};
 }
 
 void Dem::save(StateWriter& out) const {

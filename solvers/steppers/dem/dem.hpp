@@ -12,6 +12,7 @@
 #include "ball_contacts.hpp"
 #include "contact_records.hpp"
 #include "evaluation.hpp"
+#include "joints.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/time_stepper.hpp"
 #include "shape_contacts.hpp"
@@ -37,6 +38,7 @@ class Dem final : public TimeStepper {
 
   void setup(SceneServices& services) override;
   [[nodiscard]] bool needs_contact_law() const override { return true; }
+  [[nodiscard]] bool holds_joints() const override { return true; }
   StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) override;
   [[nodiscard]] ContactView contacts() const override { return records_.view(); }
   void save(StateWriter& out) const override;
@@ -70,6 +72,7 @@ class Dem final : public TimeStepper {
   dem::Verlet verlet_;
   dem::BallContacts balls_;
   dem::ShapeContacts shapes_;
+  dem::Joints joints_;
   dem::ContactRecords records_, ball_records_, shape_records_;
 
   std::vector<BodyId> ids_;                       ///< of the bodies that all of the above numbers

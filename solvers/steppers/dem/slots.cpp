@@ -66,7 +66,8 @@ void Slots::set_order(std::span<const BodyIndex> bodies) {
   for (Slot k = 0; k < body.size(); ++k) slot_of[body[k]] = k;
 }
 
-void Slots::load(const BodyView& bodies, const ShapeSet& shapes, const Executor& executor) {
+void Slots::load(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented,
+                 const Executor& executor) {
   const std::size_t n = size();
   place.resize(n), moving.resize(n), inverse_moment.resize(n);
   old.resize(n), wrench.resize(n), field.resize(n);
@@ -85,9 +86,9 @@ void Slots::load(const BodyView& bodies, const ShapeSet& shapes, const Executor&
   for (Slot k = 0; k < n; ++k) {
     const BodyIndex i = body[k];
     const bool dynamic = moving[k].is_dynamic();
-    if (bodies.motion[i] == Motion::fixed || (place[k].radius > 0.0 && (!dynamic || inverse_moment[k] > 0.0))) {
-      continue;
-    }
+    const bool plain_ball = place[k].radius > 0.0 && (!dynamic || inverse_moment[k] > 0.0);
+    if (bodies.motion[i] == Motion::fixed) continue;
+    if (plain_ball && std::ranges::find(oriented, i) == oriented.end()) continue;
     Turning t{.slot = k, .orientation = bodies.orientation[i], .momentum = {}, .torque = {}, .inverse_inertia = {}};
     if (dynamic) {
       const Vec3 j = bodies.inertia[i];
@@ -107,6 +108,7 @@ void Slots::store(const BodyState& bodies, double dt, const Executor& executor) 
       if (bodies.view.motion[i] == Motion::fixed) continue;
       bodies.position[i] = place[k].position;
       const Vec3 mean = 0.5 * (bodies.angular_velocity[i] + moving[k].angular);
+      // Those of `turning` are overwritten below.
       if (place[k].radius > 0.0 && mean != Vec3{}) {
         bodies.orientation[i] = normalized(from_rotation_vector(dt * mean) * bodies.orientation[i]);
       }

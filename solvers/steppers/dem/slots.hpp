@@ -79,7 +79,9 @@ struct Slots {
   /// Takes an order that sort() gave before: the body of each slot.
   void set_order(std::span<const BodyIndex> bodies);
   /// Fills the columns from the bodies.
-  void load(const BodyView& bodies, const ShapeSet& shapes, const Executor& executor);
+  /// Balls turn evenly and are oriented once an outer step, but for those of `oriented`.
+  void load(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented,
+            const Executor& executor);
   /// Writes positions, orientations and velocities back. `dt` [s] since load(): balls turn by their mean angular velocity.
   void store(const BodyState& bodies, double dt, const Executor& executor) const;
   /// Writes the poses of `some` bodies, which turn, or all positions, where `some` is empty.

@@ -1,0 +1,49 @@
+// Joints: holds the joints and motors of a scene in every sub-step.
+//
+// A drift takes the velocity of the middle of the sub-step; the machine takes out of it what would leave the joints (SHAKE, see
+// Machine::settle()), and the bodies of joints are moved again with what is left. Rows that are inequalities (stops, motors at
+// their limits) are found first, by projected Gauss-Seidel over the rows of joints alone: contacts are forces here, and known.
+#pragma once
+
+#include <vector>
+
+#include "scree/machine/machine.hpp"
+#include "slots.hpp"
+
+namespace scree::dem {
+
+class Joints {
+ public:
+  /// For an outer step; `machine` may be null.
+  void begin_step(Machine* machine, const BodyView& bodies);
+  [[nodiscard]] bool empty() const { return machine_ == nullptr; }
+  /// The bodies of joints, whose orientation is needed even where they are balls.
+  [[nodiscard]] std::span<const BodyIndex> bodies() const;
+
+  /// Before a drift: notes where the bodies are, and writes their poses and velocities to `state`.
+  void before(const Slots& slots, const BodyState& state);
+  /// After a drift from `time` over `h` [s]: puts the bodies where the joints let them be. Adds to work() [J].
+  void after(Slots& slots, const BodyView& bodies, double time, double h);
+  /// Of all sub-steps of this outer step [J].
+  [[nodiscard]] double work() const { return work_; }
+
+ private:
+  /// A body of joints during a sub-step.
+  struct Body {
+    Pose start;
+    Mat3 inertia;  ///< [kg m2], world, at the start; zero where torques do not turn it
+    BodyInertia inverse;
+    std::size_t turning = 0;  ///< entry of Slots::turning, or kNone
+  };
+  static constexpr std::size_t kNone = ~std::size_t{0};
+
+  void solve_rows(std::span<Twist> velocity);
+
+  Machine* machine_ = nullptr;
+  double work_ = 0.0;
+  std::vector<Body> held_;  // in the machine's order
+  std::vector<Twist> free_, velocity_;
+  std::vector<double> impulse_;  // [N s]
+};
+
+}  // namespace scree::dem
