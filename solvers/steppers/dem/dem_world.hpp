@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dem.hpp"
+#include "scree/machine/machine.hpp"
 #include "scree/math/contact_frame.hpp"
 #include "scree/model/material.hpp"
 #include "scree/parallel/executor.hpp"
@@ -92,7 +93,10 @@ class DemHost final : public StepServices {
   [[nodiscard]] const Materials& materials() const override { return materials_; }
   [[nodiscard]] const Executor& executor() const override { return executor_; }
 
-  Vec3 gravity;  ///< [m/s2]
+  [[nodiscard]] Machine* machine() override { return joints; }
+
+  Machine* joints = nullptr;  ///< of the scene; none
+  Vec3 gravity;               ///< [m/s2]
   bool steady = true;
   int asked = 0;     ///< times that forces() was called
   int searches = 0;  ///< for neighbours

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "scree/machine/joint_geometry.hpp"
 
@@ -10,7 +12,8 @@ namespace {
 
 constexpr int kMostSweeps = 200;
 /// What a sweep may still change of a row, over what it changed at first.
-constexpr double kEnough = 1e-10;
+constexpr double kEnough = 1e-12;
+constexpr double kNothing = 1e-12;  // [1/kg]
 
 /// The rotation vector of a unit quaternion [rad].
 Vec3 rotation_vector(const Quat& q) {
@@ -23,12 +26,6 @@ Vec3 rotation_vector(const Quat& q) {
 Pose moved(const Pose& start, const Twist& velocity, double h) {
   return {start.position + h * velocity.linear,
           normalized(from_rotation_vector(h * velocity.angular) * start.orientation)};
-}
-
-/// An impulse within what its block allows.
-double allowed(const CcpBlock& block, double g) {
-  if (block.kind == CcpKind::nonnegative) return std::max(g, 0.0);
-  return block.kind == CcpKind::box ? std::clamp(g, block.lower, block.upper) : g;
 }
 
 }  // namespace
@@ -89,64 +86,133 @@ void Joints::after(Slots& slots, const BodyView& bodies, double time, double h) 
   velocity_ = free_;
   solve_rows(velocity_);
   machine_->settle(impulse_, velocity_, pose_after);
-  work_ += machine_->work();
   for (std::size_t k = 0; k < index.size(); ++k) {
     const Slot slot = slots.slot_of[index[k]];
     Moving& moving = slots.moving[slot];
     const Body& body = held_[k];
     if (!moving.is_dynamic()) continue;
+    const Vec3 push = velocity_[k].linear - free_[k].linear, turn = velocity_[k].angular - free_[k].angular;
+    // The change of the kinetic energy by the joints, to the bit: impulses times the mean of the velocities.
+    work_ += 0.5 / moving.inverse_mass * dot(push, velocity_[k].linear + free_[k].linear) +
+             0.5 * dot(body.inertia * turn, velocity_[k].angular + free_[k].angular);
     const Pose pose = moved(body.start, velocity_[k], h);
     slots.place[slot].position = pose.position;
-    moving.linear += velocity_[k].linear - free_[k].linear;
+    moving.linear += push;
     if (body.turning == kNone) continue;
     Turning& turning = slots.turning[body.turning];
     turning.orientation = pose.orientation;
-    turning.momentum += body.inertia * (velocity_[k].angular - free_[k].angular);
+    turning.momentum += body.inertia * turn;
     moving.angular = angular_velocity(turning.orientation, turning.inverse_inertia, turning.momentum);
   }
 }
 
-/// Rows that may not pull, or not more than so much. Without such rows settle() finds all.
+/// What a unit impulse of a row does to the velocities, when the equations answer to it.
+struct Joints::Response {
+  std::uint32_t row = 0;
+  std::vector<Twist> velocity;  // by body
+  std::vector<double> impulse;  // of the equations
+  double allowed_from = 0.0, allowed_to = 0.0;
+  double rate = 0.0;  // of its row, without its impulse [m/s]
+};
+
+/// Adds to `velocity` what takes the defects out of the equations, and returns their impulses.
+void Joints::answer(std::span<const double> defect, std::span<Twist> velocity, std::span<double> impulse) {
+  equations_.solve(defect, impulse);
+  for (std::size_t k = 0; k < equation_rows_.size(); ++k) add(equation_rows_[k], impulse[k], velocity);
+}
+
+void Joints::add(const MachineRow& row, double impulse, std::span<Twist> velocity) const {
+  for (const auto& [body, part] : {std::pair{row.a, row.row.a}, std::pair{row.b, row.row.b}}) {
+    if (body >= 0) velocity[body] += velocity_change(held_[static_cast<std::size_t>(body)].inverse, part, impulse);
+  }
+}
+
+/// Rate of a row for velocities by body.
+double Joints::rate(const MachineRow& row, std::span<const Twist> velocity) {
+  const auto of = [&](int body) { return body < 0 ? Twist{} : velocity[static_cast<std::size_t>(body)]; };
+  return row_rate(row.row, of(row.a), of(row.b));
+}
+
+/// Rows that may not pull, or not more than so much; without any, settle() finds all. Each row's effect on all others, with the
+/// equations held, makes a small problem of such rows alone, which projected Gauss-Seidel solves.
 void Joints::solve_rows(std::span<Twist> velocity) {
   const MachineProblem problem = machine_->problem();
-  const std::span<const BodyIndex> index = machine_->bodies();
   impulse_.assign(problem.rows.size(), 0.0);
-  const bool equations = std::ranges::all_of(problem.blocks, [](const CcpBlock& b) { return b.kind == CcpKind::free; });
-  if (equations) return;
-  const auto number = [&](BodyIndex body) {
-    return static_cast<std::size_t>(std::ranges::find(index, body) - index.begin());
+  if (std::ranges::all_of(problem.blocks, [](const CcpBlock& b) { return b.kind == CcpKind::free; })) return;
+  const std::span<const BodyIndex> index = machine_->bodies();
+  const auto number = [&](BodyIndex body, const Twist& part) {
+    const auto k = std::ranges::find(index, body) - index.begin();
+    const bool of_world = part == Twist{} || static_cast<std::size_t>(k) == index.size();
+    return of_world ? -1 : static_cast<int>(k);
   };
+  equation_rows_.clear();
+  std::vector<std::uint32_t> equation_index;
+  std::vector<double> compliance, defect;
+  std::vector<MachineRow> limited_rows;
+  std::vector<Response> limited;
+  for (const CcpBlock& block : problem.blocks) {
+    for (std::uint32_t i = block.first_row; i < block.first_row + std::uint32_t{block.rows}; ++i) {
+      const CcpRow& row = problem.rows[i];
+      const MachineRow at{number(block.a, row.a), number(block.b, row.b), row};
+      if (block.kind == CcpKind::free) {
+        equation_rows_.push_back(at), equation_index.push_back(i);
+        compliance.push_back(problem.compliance[i]), defect.push_back(problem.r[i]);
+        continue;
+      }
+      limited_rows.push_back(at);
+      Response response;
+      response.row = i;
+      response.allowed_to = block.kind == CcpKind::box ? block.upper : std::numeric_limits<double>::infinity();
+      response.allowed_from = block.kind == CcpKind::box ? block.lower : 0.0;
+      limited.push_back(std::move(response));
+    }
+  }
+  std::vector<BodyInertia> inertia;
+  for (const Body& body : held_) inertia.push_back(body.inverse);
+  if (!equations_.bind(equation_rows_, compliance, inertia)) return;
+  std::vector<Twist> change(held_.size());
+  std::vector<double> held(equation_rows_.size());
+  answer(defect, change, held);
+  for (std::size_t k = 0; k < limited.size(); ++k) {
+    Response& response = limited[k];
+    response.velocity.assign(held_.size(), Twist{});
+    response.impulse.resize(equation_rows_.size());
+    add(limited_rows[k], 1.0, response.velocity);
+    for (std::size_t e = 0; e < defect.size(); ++e) defect[e] = rate(equation_rows_[e], response.velocity);
+    answer(defect, response.velocity, response.impulse);
+    response.rate = problem.r[response.row] + rate(limited_rows[k], change);
+  }
+  sweep(problem, limited_rows, limited);
+  for (const Response& response : limited) {
+    const double g = impulse_[response.row];
+    for (std::size_t e = 0; e < held.size(); ++e) held[e] += g * response.impulse[e];
+    for (std::size_t b = 0; b < change.size(); ++b) {
+      change[b] += {g * response.velocity[b].linear, g * response.velocity[b].angular};
+    }
+  }
+  for (std::size_t e = 0; e < held.size(); ++e) impulse_[equation_index[e]] = held[e];
+  for (std::size_t b = 0; b < change.size(); ++b) velocity[b] += change[b];
+}
+
+/// Projected Gauss-Seidel over the rows that have limits.
+void Joints::sweep(const MachineProblem& problem, std::span<const MachineRow> rows,
+                   std::span<const Response> responses) {
   double first = 0.0;
-  const std::vector<Twist> start{velocity.begin(), velocity.end()};
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double most = 0.0;
-    for (const CcpBlock& block : problem.blocks) {
-      const std::size_t a = number(block.a), b = number(block.b);
-      for (std::size_t i = block.first_row; i < block.first_row + std::size_t{block.rows}; ++i) {
-        const CcpRow& row = problem.rows[i];
-        const auto change = [&](double g) {
-          return std::pair{a < held_.size() ? velocity_change(held_[a].inverse, row.a, g) : Twist{},
-                           b < held_.size() ? velocity_change(held_[b].inverse, row.b, g) : Twist{}};
-        };
-        const auto rate = [&](const Twist& of_a, const Twist& of_b) { return row_rate(row, of_a, of_b); };
-        const auto [unit_a, unit_b] = change(1.0);
-        const double diagonal = rate(unit_a, unit_b) + problem.compliance[i];
-        if (!(diagonal > 0.0)) continue;
-        const auto since = [&](std::size_t k) {
-          if (k >= held_.size()) return Twist{};
-          return Twist{velocity[k].linear - start[k].linear, velocity[k].angular - start[k].angular};
-        };
-        const double u = rate(since(a), since(b)) + problem.r[i] + problem.compliance[i] * impulse_[i];
-        const double g = allowed(block, impulse_[i] - u / diagonal), step = g - impulse_[i];
-        impulse_[i] = g;
-        most = std::max(most, std::abs(step) * diagonal);
-        const auto [on_a, on_b] = change(step);
-        if (a < held_.size()) velocity[a] += on_a;
-        if (b < held_.size()) velocity[b] += on_b;
-      }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::uint32_t i = responses[k].row;
+      const double diagonal = rate(rows[k], responses[k].velocity) + problem.compliance[i];
+      double u = responses[k].rate + problem.compliance[i] * impulse_[i];
+      for (const Response& other : responses) u += rate(rows[k], other.velocity) * impulse_[other.row];
+      // A row that the equations do not let move has nothing to give, but what it is told to.
+      const double wanted = diagonal > kNothing ? impulse_[i] - u / diagonal : impulse_[i];
+      const double g = std::clamp(wanted, responses[k].allowed_from, responses[k].allowed_to);
+      most = std::max(most, std::abs(g - impulse_[i]) * diagonal);
+      impulse_[i] = g;
     }
     if (sweep == 0) first = most;
-    if (most <= kEnough * first) break;
+    if (most <= kEnough * first) return;
   }
 }
 

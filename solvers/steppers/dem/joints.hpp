@@ -1,8 +1,8 @@
 // Joints: holds the joints and motors of a scene in every sub-step.
 //
 // A drift takes the velocity of the middle of the sub-step; the machine takes out of it what would leave the joints (SHAKE, see
-// Machine::settle()), and the bodies of joints are moved again with what is left. Rows that are inequalities (stops, motors at
-// their limits) are found first, by projected Gauss-Seidel over the rows of joints alone: contacts are forces here, and known.
+// Machine::settle()), and the bodies of joints are moved again with what is left. Rows that are inequalities (stops, motors with
+// limits) are found first, with the equations held: contacts are forces here, and known.
 #pragma once
 
 #include <vector>
@@ -37,13 +37,21 @@ class Joints {
   };
   static constexpr std::size_t kNone = ~std::size_t{0};
 
+  struct Response;
+
   void solve_rows(std::span<Twist> velocity);
+  void answer(std::span<const double> defect, std::span<Twist> velocity, std::span<double> impulse);
+  void add(const MachineRow& row, double impulse, std::span<Twist> velocity) const;
+  [[nodiscard]] static double rate(const MachineRow& row, std::span<const Twist> velocity);
+  void sweep(const MachineProblem& problem, std::span<const MachineRow> rows, std::span<const Response> responses);
 
   Machine* machine_ = nullptr;
   double work_ = 0.0;
   std::vector<Body> held_;  // in the machine's order
   std::vector<Twist> free_, velocity_;
   std::vector<double> impulse_;  // [N s]
+  JointProjection equations_;
+  std::vector<MachineRow> equation_rows_;
 };
 
 }  // namespace scree::dem
