@@ -156,6 +156,38 @@ class ContactStudies(unittest.TestCase):
         lost = sum(float(row["sum"]) for row in rows if row["energy"] == "dissipated")
         self.near(lost, energy, 0.01 * energy)
 
+    # What a turning drum gives to grains: summed here contact by contact, and by the stepper in its account of energies.
+    def test_work_of_a_drum_is_that_of_the_energy_account(self):
+        drum = """
+[shape.drum]
+type = "cylinder"
+radius = "60 mm"
+length = "80 mm"
+hollow = true
+[[body]]
+name = "drum"
+shape = "drum"
+material = "stone"
+motion = "kinematic"
+position = [0.0, 0.0, 0.5]
+rotation_axis = [1, 0, 0]
+rotation_angle = "90 deg"
+angular_velocity = ["0 rad/s", "60 rpm", "0 rad/s"]
+"""
+        grains = "".join(body(f"b{i}", "ball", (-0.03 + 0.03 * (i % 3), -0.02 + 0.03 * (i // 3 % 2), 0.47 + 0.022 * (i // 6)))
+                         for i in range(18))
+        scene = self.write("drum.toml", drum + grains, 0.5)
+        scene.write_text(scene.read_text().replace('type = "body_load"\nbodies = ["plate"]',
+                                                   'type = "body_load"\nbodies = ["drum"]').replace("1e-8", "1e-6"))
+        self.run_scene(scene, "drum")
+        loads, steps = self.table("drum", "body_load.csv"), self.table("drum", "steps.csv")
+        work = float(steps[-1]["boundary_work"])
+        self.assertGreater(work, 0.0)
+        self.near(loads[-1]["work"], -work, 1e-10 * work)  # some thousand roundings
+        for row in loads:  # about its axis of rotation, y
+            self.near(row["power"], float(row["axial_torque"]) * 2 * math.pi, 1e-12)
+            self.near(row["axial_torque"], float(row["torque_y"]), 1e-15)
+
     # Everything at once, in the middle of bounces and sliding: 0.1 s and 0.1 s more are 0.2 s.
     def test_a_resumed_run_has_the_tables_of_one_run(self):
         bodies = body("ball", "ball", (0.2, -0.1, 0.03)) + body("cube", "cube", (-0.2, 0.1, 0.02), (1, 0, -0.5))
