@@ -15,18 +15,9 @@ namespace scree {
 
 namespace {
 
-enum Offset : std::size_t {
-  kWeight,
-  kSquares,
-  kVolume,
-  kMass,
-  kMomentum,
-  kPlace = 7,
-  kVV = 10,
-  kXX = 16,
-  kVX = 22,
-  kStress = 31
-};
+// Where the sums of a cell begin, as the header lists them.
+constexpr std::size_t kWeight = 0, kSquares = 1, kVolume = 2, kMass = 3, kMomentum = 4, kPlace = 7, kVV = 10, kXX = 16,
+                      kVX = 22, kStress = 31;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
