@@ -7,6 +7,7 @@
 #include "scree/config/parameter_text.hpp"
 #include "scree/config/validate.hpp"
 #include "scree/host/plugin_host.hpp"
+#include "scree/interfaces/contact_law.hpp"
 #include "scree/interfaces/electric_field.hpp"
 #include "scree/interfaces/force_field.hpp"
 #include "scree/interfaces/observer.hpp"
@@ -82,6 +83,7 @@ bool has_to_be_set(const Parameter& parameter) {
 }
 
 void set_up(Plugin& plugin, std::string_view kind, FakeSceneServices& services) {
+  if (kind == ContactLaw::kKind) set_up_as<ContactLaw>(plugin, services);
   if (kind == ElectricField::kKind) set_up_as<ElectricField>(plugin, services);
   if (kind == ForceField::kKind) set_up_as<ForceField>(plugin, services);
   if (kind == Source::kKind) set_up_as<Source>(plugin, services);
