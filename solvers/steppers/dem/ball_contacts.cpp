@@ -78,11 +78,10 @@ void BallContacts::combine(const Evaluation& e, Work& w) {
                  vz = batch.velocity.z[k] - (rx * ny - ry * nx);
     batch.velocity.x[k] = vx, batch.velocity.y[k] = vy, batch.velocity.z[k] = vz;
     batch.mass[k] = 1.0 / w.inverse_mass[k];
-    const Acting acting =
-        timing.of({w.is_new[k] != 0.0, w.leaving[k] != 0.0}, batch.overlap[k], -(nx * vx + ny * vy + nz * vz));
+    const Acting acting = timing.of({w.is_new[k], w.leaving[k]}, batch.overlap[k], -(nx * vx + ny * vy + nz * vz));
     batch.ahead[k] = acting.ahead;
     w.acting[k] = acting.part;
-    w.leaving[k] = acting.leaving ? 1.0 : 0.0;
+    w.leaving[k] = acting.leaving;
   }
 }
 
@@ -145,23 +144,27 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
   const std::size_t end = chunk_begin_[chunk + 1];
   const Place* const place = slots.place.data();
   for (std::size_t k = chunk_begin_[chunk]; k < end; ++k) {
-    if (k + kPrefetch < end) __builtin_prefetch(&place[pairs_[k + kPrefetch].b]);
+    if (k + kPrefetch < end) {
+      const Pair ahead = pairs_[k + kPrefetch];
+      __builtin_prefetch(&place[ahead.a]);
+      __builtin_prefetch(&place[ahead.b]);
+      __builtin_prefetch(&slots.moving[ahead.a]);
+      __builtin_prefetch(&slots.moving[ahead.b]);
+    }
     const Pair pair = pairs_[k];
     const Place &a = place[pair.a], &b = place[pair.b];
     const Vec3 apart = b.position - a.position;
     const double distance2 = squared_norm(apart), radii = a.radius + b.radius + e.reach;
-    if (!(distance2 < radii * radii)) {
-      if ((flags_[k] & kTouching) != 0) let_go(k);
-      continue;
-    }
+    const bool touch = distance2 < radii * radii;
+    if (!touch && (flags_[k] & kTouching) != 0) let_go(k);
+    // Written in any case, and kept where they touch: whether they do cannot be foreseen.
     const std::size_t lane = batch.count;
-    __builtin_prefetch(&slots.moving[pair.b]);
-    __builtin_prefetch(&slots.moving[pair.a]);
     w.pair[lane] = static_cast<std::uint32_t>(k);
     w.distance2[lane] = distance2;
     w.apart.set(lane, apart);
     w.radius_a[lane] = a.radius, w.radius_b[lane] = b.radius;
-    if (++batch.count == kLanes) flush();
+    batch.count += touch ? 1 : 0;
+    if (batch.count == kLanes) flush();
   }
   if (batch.count > 0) flush();
   return w.tally;

@@ -191,10 +191,11 @@ void Dem::ask_fields(const Call& call, double time) {
     unstored_ = 0.0;
   }
   call.services.forces(call.bodies.view, time, {field_force_, field_torque_});
+  const bool turns = std::ranges::any_of(field_torque_, [](const Vec3& torque) { return torque != Vec3{}; });
+  slots_.field_torque.resize(turns ? n : 0);
   call.services.executor().for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      slots_.field[k] = {field_force_[slots_.body[k]], field_torque_[slots_.body[k]]};
-    }
+    for (std::size_t k = first; k < last; ++k) slots_.field_force[k] = field_force_[slots_.body[k]];
+    for (std::size_t k = first; turns && k < last; ++k) slots_.field_torque[k] = field_torque_[slots_.body[k]];
   });
 }
 

@@ -24,17 +24,18 @@ struct Evaluation {
   bool rolls = false;       ///< the law resists rolling
 };
 
-/// How far ahead the springs of a contact are to be carried, and how much of what the kick assumes it acts.
+/// How far ahead the springs of a contact are to be carried, and how much of what the kick assumes it acts. Numbers throughout,
+/// 1 for yes and 0 for no, so that loops over lanes stay such.
 struct Acting {
   double ahead = 0.0;    ///< ContactBatch::ahead [s]
   double part = 1.0;     ///< [1]
-  bool leaving = false;  ///< the force stands for all of the time until the next evaluation
+  double leaving = 0.0;  ///< 1: the force stands for all of the time until the next evaluation
 };
 
 /// What the evaluation before says of a contact.
 struct Earlier {
-  bool is_new = true;    ///< it was not there
-  bool leaving = false;  ///< Acting::leaving
+  double is_new = 1.0;   ///< 1: it was not there
+  double leaving = 0.0;  ///< Acting::leaving
 };
 
 /// A force of an evaluation stands for half a step on either side of it where the contact lasts so long; for the whole time
@@ -54,25 +55,24 @@ class ContactTiming {
         of_after_{e.stage == Stage::last    ? 0.0
                   : e.stage == Stage::first ? 2.0 / e.h
                                             : 1.0 / e.h},
-        last_{e.stage == Stage::last},
+        keeps_{e.stage == Stage::last ? 0.0 : 1.0},
         // A neck acts beyond the surfaces, and begins and ends when the law says so.
-        whole_{e.reach > 0.0} {}
+        whole_{e.reach > 0.0 ? 1.0 : 0.0} {}
 
   /// Of a contact that closes with `approach` [m/s].
   [[nodiscard]] Acting of(Earlier earlier, double overlap, double approach) const {
     const double way = h_ * std::abs(approach), closed = std::max(overlap, 0.0);
     const double time = closed < way ? h_ * (closed / way) : h_;  // to cover the overlap, at most a step
     const double since = approach > 0.0 ? time : h_;
-    const bool leaving = approach < 0.0 && closed < 2.0 * way;
-    const double before = earlier.is_new ? since : earlier.leaving ? 0.0 : half_;
-    const double after = leaving ? time : half_;
-    return {earlier.is_new ? new_ahead_ * since : old_ahead_, whole_ ? 1.0 : of_before_ * before + of_after_ * after,
-            leaving && !last_};
+    const double leaving = approach < 0.0 && closed < 2.0 * way ? 1.0 : 0.0;
+    const double before = earlier.is_new != 0.0 ? since : (1.0 - earlier.leaving) * half_;
+    const double after = leaving != 0.0 ? time : half_;
+    const double part = of_before_ * before + of_after_ * after;
+    return {earlier.is_new != 0.0 ? new_ahead_ * since : old_ahead_, whole_ + (1.0 - whole_) * part, keeps_ * leaving};
   }
 
  private:
-  double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_;
-  bool last_, whole_;
+  double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_, keeps_, whole_;
 };
 
 /// Part of the step that the impulse of an evaluation's force belongs to [s].

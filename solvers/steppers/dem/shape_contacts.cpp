@@ -46,14 +46,31 @@ void ShapeContacts::begin_step(const BodyView& bodies) {
   const auto index = [&](BodyId id) {
     return static_cast<BodyIndex>(std::ranges::lower_bound(bodies.id, id) - bodies.id.begin());
   };
+  active_.clear();
   for (Entry& e : entries_) {
     e.impulse = e.moment = {};
     e.contact.a = index(e.key.a), e.contact.b = index(e.key.b);
   }
 }
 
+/// Most sub-steps find the contacts of the one before, and nothing is to be matched.
+bool ShapeContacts::is_as_before(const BodyView& bodies, std::span<const Contact> found) {
+  if (found.size() != active_.size()) return false;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Entry& entry = entries_[active_[k]];
+    if (!entry.touching || entry.key != contact_key(bodies, found[k])) return false;
+  }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    Entry& entry = entries_[active_[k]];
+    entry.contact = found[k];
+    entry.is_new = false;
+  }
+  return true;
+}
+
 /// One walk through the entries and the contacts found now, both sorted by key.
 void ShapeContacts::match(const BodyView& bodies, std::span<const Contact> found) {
+  if (is_as_before(bodies, found)) return;
   merged_.clear();
   active_.clear();
   std::size_t old = 0, group = 0;
@@ -162,10 +179,10 @@ void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Eva
     batch.velocity.set(k, v);
     batch.spin.set(k, b.angular - a.angular);
     batch.materials[k] = static_cast<std::uint32_t>(a.material * e.materials + b.material);
-    const Acting acting = timing.of({entry.is_new, entry.leaving}, overlap, approach);
+    const Acting acting = timing.of({entry.is_new ? 1.0 : 0.0, entry.leaving ? 1.0 : 0.0}, overlap, approach);
     batch.ahead[k] = acting.ahead;
     w.acting[k] = acting.part;
-    w.leaving[k] = acting.leaving;
+    w.leaving[k] = acting.leaving != 0.0;
     for (std::size_t j = 0; j < e.history; ++j) batch.history[j][k] = entry.history[j];
     w.smaller[k] = std::min(a.is_dynamic() ? bodies.radius[c.a] : std::numeric_limits<double>::infinity(),
                             b.is_dynamic() ? bodies.radius[c.b] : std::numeric_limits<double>::infinity());

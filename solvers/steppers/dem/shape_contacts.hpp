@@ -51,6 +51,7 @@ class ShapeContacts {
   };
   struct Work;
 
+  bool is_as_before(const BodyView& bodies, std::span<const Contact> found);
   void match(const BodyView& bodies, std::span<const Contact> found);
   void inherit(std::size_t first, std::size_t last);
   static Arms arms(const Slots& slots, const Contact& contact, bool at_contact_point);

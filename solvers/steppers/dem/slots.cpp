@@ -70,7 +70,7 @@ void Slots::load(const BodyView& bodies, const ShapeSet& shapes, std::span<const
                  const Executor& executor) {
   const std::size_t n = size();
   place.resize(n), moving.resize(n), inverse_moment.resize(n);
-  old.resize(n), wrench.resize(n), field.resize(n);
+  old.resize(n), wrench.resize(n), field_force.resize(n);
   executor.for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       const BodyIndex i = body[k];

@@ -67,7 +67,8 @@ struct Slots {
   std::vector<Twist> twist;            ///< predicted for the time of the forces [m/s], [rad/s]
   std::vector<Twist> old;              ///< accelerations at the last evaluation [m/s2], [rad/s2]
   std::vector<Wrench> wrench;          ///< of contacts
-  std::vector<Wrench> field;           ///< of force fields
+  std::vector<Vec3> field_force;       ///< of force fields [N]
+  std::vector<Vec3> field_torque;      ///< [N m]; empty where no field turns a body
   std::vector<double> inverse_moment;  ///< where the three moments are equal [1/(kg m2)]; else 0
   std::vector<Turning> turning;        ///< by slot
   std::vector<double> reach;           ///< by entry of turning: farthest point from the centre of mass [m]

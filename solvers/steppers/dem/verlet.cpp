@@ -32,6 +32,7 @@ KickWork kick_work(double h, Stage stage) {
 void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, std::size_t last, Motions& out) const {
   const KickWork work = kick_work(h, stage);
   const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
+  const bool turns = !slots.field_torque.empty();
   double fastest2 = 0.0;
   for (std::size_t k = first; k < last; ++k) {
     Moving& body = slots.moving[k];
@@ -43,14 +44,15 @@ void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
       fastest2 = std::max(fastest2, squared_norm(body.linear));
       continue;
     }
-    const Wrench& field = slots.field[k];
+    const Vec3& force = slots.field_force[k];
+    const Vec3 torque = turns ? slots.field_torque[k] : Vec3{};
     Twist& old = slots.old[k];
-    const Vec3 a = body.inverse_mass * (contact.force + field.force);
-    const Vec3 alpha = slots.inverse_moment[k] * (contact.torque + field.torque);
+    const Vec3 a = body.inverse_mass * (contact.force + force);
+    const Vec3 alpha = slots.inverse_moment[k] * (contact.torque + torque);
     const Vec3 v = body.linear + correct * (a - old.linear), w = body.angular + correct * (alpha - old.angular);
     const Vec3 mean = v + work.shift * a, mean_spin = w + work.shift * alpha;
     out.contact_work += work.impulse_time * (dot(contact.force, mean) + dot(contact.torque, mean_spin));
-    out.force_work += work.impulse_time * (dot(field.force, mean) + dot(field.torque, mean_spin));
+    out.force_work += work.impulse_time * (dot(force, mean) + dot(torque, mean_spin));
     place.position += ahead * (v + (0.5 * ahead) * a);
     body.linear = v + ahead * a;
     body.angular = w + ahead * alpha;
@@ -69,7 +71,8 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
     Vec3& spin = slots.moving[t.slot].angular;
     Quat& q = t.orientation;
     if (slots.moving[t.slot].is_dynamic()) {
-      const Vec3 torque = slots.wrench[t.slot].torque + slots.field[t.slot].torque;
+      const Vec3 torque =
+          slots.wrench[t.slot].torque + (slots.field_torque.empty() ? Vec3{} : slots.field_torque[t.slot]);
       t.momentum += correct * (torque - t.torque);
       const Vec3 half = t.momentum + (0.5 * ahead) * torque;
       if (ahead > 0.0) {
