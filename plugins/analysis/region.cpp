@@ -43,6 +43,7 @@ Region::Region(const Options& options, SceneServices& services) {
 }
 
 std::optional<std::pair<double, double>> part_inside(const Aabb& box, const Vec3& from, const Vec3& to) {
+  if (!is_finite(from) || !is_finite(to)) return std::nullopt;  // in the frame of a body that is gone
   double first = 0.0, last = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double way = to[axis] - from[axis];

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "scree/base/error.hpp"
@@ -63,6 +64,7 @@ TEST(region, knows_which_part_of_a_way_lies_in_a_box) {
   EXPECT_EQ(*inside, (std::pair{0.0, 1.0}));
   EXPECT_FALSE(part_inside(box, {-1, 0.5, 0.5}, {0.5, 2.5, 0.5})) << "the line passes the corner";
   EXPECT_FALSE(part_inside(box, {-1, 2, 0.5}, {3, 2, 0.5}));
+  EXPECT_FALSE(part_inside(box, {std::nan(""), 0.5, 0.5}, {0.5, 0.5, 0.5})) << "nowhere is not inside";
 }
 
 TEST(cell_grid, gives_every_place_of_its_box_to_one_cell) {

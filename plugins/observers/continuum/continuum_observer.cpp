@@ -71,7 +71,7 @@ void ContinuumObserver::setup(SceneServices& services, const std::filesystem::pa
   grid_ = CellGrid{options_, services};
   field_ = std::make_unique<CoarseField>(grid_, kernel_of(options_, grid_));
   if (options_.has("window")) steps_of_window_ = steps_between(options_.number("window"), services.time_step());
-  window_begin_ = options_.number("from");
+  window_begin_ = kNone;
   std::vector<SeriesColumn> columns{{"time", "s"},
                                     {"window_begin", "s"},
                                     {options_.text("profile_axis"), "m"},
@@ -93,6 +93,8 @@ void ContinuumObserver::observe(const Observation& now, Attributes&) {
   constexpr double kRounding = 1e-9;  // of a step
   const double since = (now.time - options_.number("from")) / now.dt;
   if (since < 1.0 - kRounding) return;
+  // Later than asked for when a run goes on with an observer that the part before had not.
+  if (std::isnan(window_begin_)) window_begin_ = now.time - now.dt;
   if (schedule_.is_due(now.step)) look(now);
   const auto step = static_cast<std::uint64_t>(std::llround(since));
   if (steps_of_window_ > 0 && step % steps_of_window_ == 0) end_window(now);

@@ -69,6 +69,8 @@ void MassFlowObserver::setup(SceneServices& services, const std::filesystem::pat
 }
 
 void MassFlowObserver::observe(const Observation& now, Attributes&) {
+  // Not always zero: a run may go on with an observer that the part before had not.
+  if (std::isnan(interval_begin_)) interval_begin_ = now.time - now.dt;
   frame_.update(now.bodies);
   bodies_.walk(now.bodies, [&](BodyIndex i, Before& before, bool is_new) {
     const Vec3& place = now.bodies.position[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "analysis/body_memory.hpp"
@@ -62,7 +63,7 @@ class MassFlowObserver final : public Observer {
   BodyMemory<Before> bodies_;
   std::vector<Passed> passed_;      // by material
   std::vector<double> net_before_;  // net mass of each material at the end of the last interval [kg]
-  double interval_begin_ = 0.0;     // [s]
+  double interval_begin_ = std::numeric_limits<double>::quiet_NaN();  // [s]; NaN before the first look
   Series series_;
   Series crossings_;
 };

@@ -134,6 +134,20 @@ TEST_F(MassFlowTest, goes_on_from_a_checkpoint_while_bodies_come_and_go) {
   expect_checkpoints_to_keep_everything(std::string{kFalling} + "crossings = true", begin, run);
 }
 
+// A run that goes on may have an observer that the part before had not: its first interval begins where it began to look.
+TEST_F(MassFlowTest, takes_its_first_rate_from_where_it_began_to_look) {
+  const auto observer = make(kFalling);
+  for (std::uint64_t step = 106; step <= 110; ++step) {
+    bodies = test::TestBodies{services.attributes()};
+    add(step, {0, 0, -0.001}, {0, 0, -1}, 0.5);
+    observer->observe(at(step), services.attributes());
+  }
+  const auto rows = csv("mass_flow.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NEAR(std::stod(rows[1][1]), 1.05, 1e-12);
+  EXPECT_NEAR(std::stod(rows[1][6]), 50.0, 1e-9);  // 0.5 kg in every step of 0.01 s
+}
+
 TEST_F(MassFlowTest, refuses_a_window_that_ends_before_it_begins) {
   EXPECT_NE(refusal(std::string{kFalling} + "fit_from = 1.0\nfit_to = 0.5").find("later than fit_from"),
             std::string::npos);
