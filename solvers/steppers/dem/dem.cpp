@@ -27,7 +27,9 @@ Dem::Dem(const Options& options)
     : Dem{DemOptions{.sub_step = options.number("sub_step"),
                      .force_step = options.boolean("force_step"),
                      .skin = options.number("skin"),
-                     .at_contact_point = options.text("lever") == "contact_point"}} {}
+                     .at_contact_point = options.text("lever") == "contact_point"}} {
+  scene_options_ = options;
+}
 
 std::vector<Parameter> Dem::parameters() {
   return {
@@ -150,10 +152,10 @@ void Dem::choose_sub_step(const Call& call) {
     char text[200];
     std::snprintf(
         text, sizeof text,
-        "time_stepper:dem: sub_step = %.4g s is longer than the %.4g s that the contact law calls stable for the "
-        "stiffest contact; take a shorter one, 0 for that, or force_step = true",
+        "is %.4g s, longer than the %.4g s that the contact law calls stable for the stiffest contact; take a shorter "
+        "one, 0 for that, or force_step = true",
         asked, stable);
-    throw Error{ErrorKind::usage, text};
+    throw scene_options_.error("sub_step", text);
   }
   const double longest = std::min(asked > 0.0 ? asked : stable, call.dt);
   sub_steps_ = static_cast<std::size_t>(std::max(1.0, std::ceil(call.dt / longest - 1e-9)));

@@ -65,6 +65,7 @@ class Dem final : public TimeStepper {
   void keep_results(const Call& call, const dem::ContactTally& tally, const dem::Motions& work, StepSummary& summary);
 
   DemOptions options_;
+  Options scene_options_;  ///< for the place of a message
   SceneServices* scene_ = nullptr;
   bool told_ = false;  ///< the log knows the sub-step
 
