@@ -156,7 +156,7 @@ void Dem::choose_sub_step(const Call& call) {
         "is %.4g s, longer than the %.4g s that the contact law calls stable for the stiffest contact; take a shorter "
         "one, 0 for that, or force_step = true",
         asked, stable);
-    if (!scene_options_.has("sub_step")) throw Error{ErrorKind::usage, std::string{"dem: sub_step "} + text};
+    if (scene_options_.names().empty()) throw Error{ErrorKind::usage, std::string{"dem: sub_step "} + text};
     throw scene_options_.error("sub_step", text);
   }
   const double longest = std::min(asked > 0.0 ? asked : stable, call.dt);
