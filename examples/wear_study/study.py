@@ -79,10 +79,10 @@ def chart(rows):
              '<text x="20" y="24" font-weight="bold">Wear of the lifters [mm3/h]</text>'
              '<rect x="320" y="13" width="12" height="12" fill="#D55E00"/><text x="338" y="24">sliding (Archard)</text>'
              '<rect x="470" y="13" width="12" height="12" fill="#0072B2"/><text x="488" y="24">impacts (Finnie)</text>']
-    for k in range(5):
-        y = bottom - k / 4 * (bottom - top)
-        parts.append(f'<line x1="{left}" x2="{width - 20}" y1="{y}" y2="{y}" stroke="#ddd"/>'
-                     f'<text x="{left - 8}" y="{y + 4}" text-anchor="end">{k / 4 * most:.3g}</text>')
+    for k in range(int(2 * most) + 1):
+        y = bottom - 0.5 * k * scale
+        parts.append(f'<line x1="{left}" x2="{width - 20}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>'
+                     f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{0.5 * k:.1f}</text>')
     for k, r in enumerate(rows):
         x = left + 30 + k * (width - left - 40) / len(rows)
         low = scale * r["liner sliding"]

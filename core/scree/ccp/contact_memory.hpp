@@ -29,7 +29,7 @@ struct ContactKey {
   std::uint32_t primitive_b = 0;
   std::uint64_t feature = 0;
 
-  auto operator<=>(const ContactKey&) const = default;
+  auto operator<=>(const ContactKey&) const = default;  // NOLINT(modernize-use-nullptr): a fault of clang-tidy 14
 };
 
 /// The key of a contact between bodies of `bodies`.

@@ -16,7 +16,7 @@ namespace scree {
 namespace {
 
 // Columns of the table.
-constexpr std::size_t kTime = 0, kBody = 1, kForce = 3, kTorque = 6, kAxial = 9, kPower = 10;
+constexpr std::size_t kTime = 0, kBody = 1, kForce = 3, kAxial = 9, kPower = 10;
 
 std::vector<SeriesColumn> columns(const std::vector<std::string>& names) {
   return {{"time", "s"},       {"body", "", names},     {"contacts"},        {"force_x", "N"},

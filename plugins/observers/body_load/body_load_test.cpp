@@ -171,7 +171,7 @@ TEST_F(BodyLoadTest, a_resumed_run_writes_the_table_of_one_run) {
   whole.setup(services, folder);
   first.setup(services, {});
   touch({0.3, -0.2, 0}, {0, 0, 1}, {1.0 / 3.0, 0, 2.0}, {0, 0.1, 0});
-  const auto run = [&](std::vector<BodyLoad*> loads, std::uint64_t from, std::uint64_t to) {
+  const auto run = [&](const std::vector<BodyLoad*>& loads, std::uint64_t from, std::uint64_t to) {
     for (std::uint64_t step = from; step <= to; ++step) {
       bodies.velocity[1] = {0.1 * static_cast<double>(step), 0, 0};
       bodies.angular_velocity[1] = {0, 0.2 * static_cast<double>(step), 0};
@@ -209,8 +209,8 @@ TEST_F(BodyLoadTest, a_body_that_a_sink_took_is_said_to_have_left) {
 }
 
 TEST_F(BodyLoadTest, an_axis_without_length_is_refused) {
-  EXPECT_THROW(make("bodies = ['ball']\naxis = [0, 0, 0]"), Error);
-  EXPECT_THROW(make("bodies = []"), Error);
+  EXPECT_THROW(static_cast<void>(make("bodies = ['ball']\naxis = [0, 0, 0]")), Error);
+  EXPECT_THROW(static_cast<void>(make("bodies = []")), Error);
 }
 
 }  // namespace

@@ -179,7 +179,9 @@ TEST_F(CollisionEnergyTest, a_resumed_run_writes_what_one_run_writes) {
   EXPECT_TRUE(fs::exists(folder / "collision_energy.svg"));
 }
 
-TEST_F(CollisionEnergyTest, a_range_inside_out_is_refused) { EXPECT_THROW(make("lower = 1.0\nupper = 0.1"), Error); }
+TEST_F(CollisionEnergyTest, a_range_inside_out_is_refused) {
+  EXPECT_THROW(static_cast<void>(make("lower = 1.0\nupper = 0.1")), Error);
+}
 
 }  // namespace
 }  // namespace scree

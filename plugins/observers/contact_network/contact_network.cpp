@@ -61,6 +61,10 @@ std::uint64_t ForceHistogram::total() const {
   return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
 }
 
+void ForceHistogram::save(StateWriter& out) const { out.write("counts", std::span<const std::uint64_t>{counts_}); }
+
+void ForceHistogram::load(const StateReader& in) { counts_ = in.integers("counts"); }
+
 double ForceHistogram::density(std::size_t bin) const {
   const double all = static_cast<double>(std::max<std::uint64_t>(1, total()));
   return static_cast<double>(counts_[bin]) / (all * (kTop / kBins));
@@ -199,14 +203,14 @@ std::vector<ReportTable> ContactNetwork::report() const {
 void ContactNetwork::save(StateWriter& out) const {
   table_.save(*out.group("table"));
   series_.save(out, "frames");
-  out.write("forces", std::span<const std::uint64_t>{forces_.counts_});
+  forces_.save(*out.group("forces"));
   out.write("degrees", std::span<const std::uint64_t>{degrees_});
 }
 
 void ContactNetwork::load(const StateReader& in) {
   table_.load(*in.group("table"));
   series_.load(in, "frames", results_);
-  forces_.counts_ = in.integers("forces");
+  forces_.load(*in.group("forces"));
   degrees_ = in.integers("degrees");
 }
 

@@ -26,7 +26,11 @@ class ForceHistogram {
   [[nodiscard]] double density(std::size_t bin) const;
   [[nodiscard]] static double edge(std::size_t bin) { return kTop * static_cast<double>(bin) / kBins; }
 
-  std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(kBins, 0);  ///< public for checkpoints
+  void save(StateWriter& out) const;
+  void load(const StateReader& in);
+
+ private:
+  std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(kBins, 0);
 };
 
 /// Writes contact_network.csv, _coordination.csv, _forces.csv, figures of coordination and of forces, and the network as

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "contact_network.hpp"
@@ -20,7 +21,7 @@ constexpr double kStep = 1e-3, kFriction = 0.5;
 struct Lattice {
   explicit Lattice(int n) : size{n} {
     materials.add({"stone", 1000.0, {.friction = kFriction}, {}});
-    for (BodyId k = 0; k < static_cast<BodyId>(n * n * n); ++k) {
+    for (BodyId k = 0; k < static_cast<BodyId>(n) * static_cast<BodyId>(n * n); ++k) {
       const auto i = static_cast<int>(k);
       bodies.add_sphere(k, {0.0 + i % n, 0.0 + i / n % n, 0.0 + i / (n * n)}, 0.5, 1000.0);
     }
@@ -152,12 +153,12 @@ TEST(network, points_of_a_pair_are_one_link) {
 // Forces 1, 2, 3, 10 over their mean of 4: bins of 0.2; the density integrates to one.
 TEST(network, forces_are_counted_over_their_mean) {
   Lattice many{1};
-  double force[] = {1.0, 2.0, 3.0, 10.0};
+  const std::array force{1.0, 2.0, 3.0, 10.0};
   for (BodyId k = 1; k < 5; ++k) {
     many.bodies.add_sphere(k, {0, 0, static_cast<double>(k)}, 0.5, 1000.0);
     many.press(static_cast<int>(k) - 1, static_cast<int>(k), {0, 0, 1}, force[k - 1]);
   }
-  ForceHistogram histogram;
+  ForceHistogram histogram{};
   histogram.add(many.network());
   EXPECT_EQ(histogram.total(), 4u);
   for (const double over_mean : {0.25, 0.5, 0.75, 2.5}) {
