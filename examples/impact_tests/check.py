@@ -72,7 +72,26 @@ def on_a_wall(check):
         check.near(f"test 4, {degrees} deg: spin [rad/s]", ball["wy"][-1], w, 0.01 * w)
 
 
+def adhesion(check):
+    # JKR: the neck takes 7.09 (w^5 R^4 / E^2)^(1/3) from an elastic impact; what comes slower than that stays.
+    w, radius, modulus = 0.1, 1e-3, 1e7 / (1 - 0.3**2)
+    work = (4.8 * 4 ** (1 / 3) + 0.8) * 0.5 * pi * (pi / 8) ** (2 / 3) * (w**5 * radius**4 / modulus**2) ** (1 / 3)
+    sticks = (2 * work / sphere(radius, 1000)) ** 0.5
+    for factor in (0.8, 2.0):
+        ball = elastic(check, f"jkr_{factor}", contact_law__cohesion="jkr", material__alloy__young_modulus=1e7,
+                       material__alloy__density=1000, material__alloy__surface_energy=w,
+                       material__wall__surface_energy=w, shape__ball__radius=radius, simulation__end_time=5e-3,
+                       simulation__time_step=1e-5, time_stepper__sub_step=1e-7,
+                       body__ball__position="[0.0, 0.0, 1.001e-3]", body__ball__velocity=[0, 0, -factor * sticks])
+        if factor > 1:
+            check.near("JKR: an elastic impact loses the work of the neck", ball["vz"][-1] / sticks,
+                       (factor**2 - 1) ** 0.5, 0.01)
+        else:
+            check.holds("JKR: a slower one stays", abs(ball["z"][-1] - radius) < 0.01 * radius, f"z = {ball['z'][-1]}")
+
+
 with Check(__file__) as check:
     oblique(check)
     two_spheres(check)
     on_a_wall(check)
+    adhesion(check)

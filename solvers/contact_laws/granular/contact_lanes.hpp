@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "scree/interfaces/contact_law.hpp"
@@ -28,9 +29,16 @@ struct ContactLanes {
 /// One number for each ordered pair of materials, as ContactBatch::materials counts them.
 using PairColumn = std::vector<double>;
 
-/// The entries of a column that a batch asks for.
+/// The entries of a column that a batch asks for. Most batches are of one pair of materials.
 inline void spread(const PairColumn& column, const ContactBatch& __restrict batch, Lane& __restrict out) {
   const double* values = column.data();
+  std::uint32_t others = 0;
+  for (std::size_t k = 0; k < batch.count; ++k) others |= batch.materials[k] ^ batch.materials[0];
+  if (others == 0 && batch.count > 0) {
+    const double value = values[batch.materials[0]];
+    for (std::size_t k = 0; k < batch.count; ++k) out[k] = value;
+    return;
+  }
   for (std::size_t k = 0; k < batch.count; ++k) out[k] = values[batch.materials[k]];
 }
 
