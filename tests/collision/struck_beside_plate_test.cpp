@@ -42,7 +42,8 @@ std::string scene(const std::string& plate, const std::string& grain, double res
          "length = 1e-3\n";
   RandomNumbers random{5};
   for (int k = 0; k < kLanes; ++k) {
-    const Vec3 lane = kLaneWidth * Vec3{static_cast<double>(k % 8), static_cast<double>(k / 8), 0.0};
+    const int row = k / 8, column = k % 8;
+    const Vec3 lane = kLaneWidth * Vec3{static_cast<double>(column), static_cast<double>(row), 0.0};
     const double gap = random.decades(1e-5, 2e-3), fall = random.uniform(1.0, 10.0);
     const Vec3 rest = lane + Vec3{0.0, 0.0, 5e-4 + 5e-4 + gap};
     const double apart = random.uniform(0.0, 1.0) * 1e-3 * fall;  // so that they meet within the first step
