@@ -14,6 +14,7 @@
 #include "scree/collision/collision_filter.hpp"
 #include "scree/collision/contact.hpp"
 #include "scree/collision/pair_sorter.hpp"
+#include "scree/collision/part_of_scene.hpp"
 #include "scree/interfaces/broad_phase.hpp"
 #include "scree/interfaces/narrow_phase.hpp"
 
@@ -50,6 +51,12 @@ class CollisionPipeline {
   /// @throws Error (usage) when two kinds meet that no phase supports.
   std::span<const Contact> find(const BodyView& bodies, std::span<const Vec3> velocity,
                                 std::span<const Vec3> angular_velocity, double dt);
+
+  /// Contacts, as find() has them, of a `few` bodies that forces move, in increasing order, with those that forces do not move.
+  /// What find() gave stays valid. Cost: the few times all walls. Valid until the next call of this.
+  std::span<const Contact> find_walls(const BodyView& bodies, std::span<const BodyIndex> few,
+                                      std::span<const Vec3> velocity, std::span<const Vec3> angular_velocity,
+                                      double dt);
 
   /// Pairs that come within `skin` [m] of each other as the bodies stand. Valid until the next call of find() or this.
   NeighbourView find_neighbours(const BodyView& bodies, double skin);
@@ -112,6 +119,10 @@ class CollisionPipeline {
   ContactBuffer contacts_;                        // of one thread
   UninitialisedVector<Contact> joined_contacts_;  // of several
   CollisionCounts counts_;
+
+  PartOfScene part_;
+  std::vector<ColliderPair> wall_pairs_;
+  ContactBuffer wall_contacts_;
 
   std::vector<BodyPair> ball_neighbours_;
   std::vector<ColliderPair> other_neighbours_;

@@ -62,6 +62,10 @@ NeighbourView StepServices::neighbours(const BodyView&, double) {
 std::span<const Contact> StepServices::neighbour_contacts(const BodyView&, double) {
   throw std::logic_error{"this host finds no neighbours"};
 }
+std::span<const Contact> StepServices::wall_contacts(const BodyView&, std::span<const BodyIndex>, std::span<const Vec3>,
+                                                     std::span<const Vec3>, double) {
+  return {};
+}
 
 TimeStepper::~TimeStepper() = default;
 void TimeStepper::setup(SceneServices&) {}

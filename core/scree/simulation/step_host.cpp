@@ -21,6 +21,13 @@ std::span<const Contact> StepHost::contacts(const BodyView& bodies, std::span<co
   return found;
 }
 
+std::span<const Contact> StepHost::wall_contacts(const BodyView& bodies, std::span<const BodyIndex> few,
+                                                 std::span<const Vec3> velocity, std::span<const Vec3> angular_velocity,
+                                                 double dt) {
+  const PhaseTimer::Scope scope{timer_, Phase::collision};
+  return pipeline_.find_walls(bodies, few, velocity, angular_velocity, dt);
+}
+
 NeighbourView StepHost::neighbours(const BodyView& bodies, double skin) {
   const PhaseTimer::Scope scope{timer_, Phase::collision};
   const NeighbourView found = pipeline_.find_neighbours(bodies, skin);

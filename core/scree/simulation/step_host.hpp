@@ -50,6 +50,9 @@ class StepHost final : public StepServices {
   [[nodiscard]] const Executor& executor() const override { return executor_; }
   [[nodiscard]] Machine* machine() override { return machine_.empty() ? nullptr : &machine_; }
   void before_motion() override { on_motion_(); }
+  std::span<const Contact> wall_contacts(const BodyView& bodies, std::span<const BodyIndex> few,
+                                         std::span<const Vec3> velocity, std::span<const Vec3> angular_velocity,
+                                         double dt) override;
   /// What before_motion() calls.
   void on_motion(std::function<void()> action) { on_motion_ = std::move(action); }
   /// Shows the next problem that is posed to `tap`, which may be empty, and no other one.

@@ -74,10 +74,6 @@ class ContactAssembly {
             .blocks = blocks_,
             .block_rows = block_rows_};
   }
-  /// The contacts that it was built of lie elsewhere now.
-  void move_contacts(std::span<const Contact> copy) {
-    if (contacts_.size() == copy.size()) contacts_ = copy;  // else they are its own
-  }
   /// Frees everything but contacts().
   void release_problem();
   /// Bodies of the scene by number in the problem.

@@ -50,7 +50,7 @@ StepSummary Dvi::step(StepServices& services, const BodyState& bodies, double ti
   if (impulse_.size() >= kManyRecords) release(impulse_, before_, after_, angular_impulse_);
   step_dt_ = dt;
   free_motion(services, bodies.view, time, dt);
-  std::span<const Contact> found = find_contacts(services, bodies.view, velocity_, angular_velocity_, dt);
+  std::span<const Contact> found = find_contacts(services, bodies.view, dt);
   const dvi::JoinedBodies joined = pose_joints(services.machine(), bodies.view, time, dt);
   joint_guess_ = joined.problem.guess;
   StepSummary summary;
@@ -100,12 +100,10 @@ void Dvi::free_motion(StepServices& services, const BodyView& bodies, double tim
 }
 
 // Surfaces that slip float by what they slip in a step, whoever moves: collision looks as far as for bodies that move so.
-std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyView& bodies,
-                                            const std::vector<Vec3>& velocity,
-                                            const std::vector<Vec3>& angular_velocity, double dt) {
-  if (bodies.surface_motion.empty()) return services.contacts(bodies, velocity, angular_velocity, dt);
-  surface_velocity_ = velocity;
-  surface_spin_ = angular_velocity;
+std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyView& bodies, double dt) {
+  if (bodies.surface_motion.empty()) return services.contacts(bodies, velocity_, angular_velocity_, dt);
+  surface_velocity_ = velocity_;
+  surface_spin_ = angular_velocity_;
   for (BodyIndex i = 0; i < bodies.size(); ++i) {
     if (bodies.surface_motion[i] == Twist{}) continue;
     const Twist surface = surface_motion(bodies, i);
@@ -118,18 +116,17 @@ std::span<const Contact> Dvi::find_contacts(StepServices& services, const BodyVi
 // What the solver has just found is known to nobody who looked for contacts before.
 bool Dvi::look_again(StepServices& services, const BodyView& bodies, std::span<const Contact> found, double dt) {
   const std::span<const Twist> w = std::span<const Twist>{w_}.first(assembly_.bodies().size());
-  if (!dvi::is_struck(bodies, assembly_.bodies(), w, dt)) return false;
-  seen_.assign(found.begin(), found.end());  // the next look takes the room of the first one
+  dvi::find_struck(bodies, assembly_.bodies(), w, dt, struck_);
+  if (struck_.empty()) return false;
   struck_velocity_ = velocity_;
   struck_spin_ = angular_velocity_;
   for (std::size_t k = 0; k < w.size(); ++k) {
     struck_velocity_[assembly_.bodies()[k]] += w[k].linear;
     struck_spin_[assembly_.bodies()[k]] += w[k].angular;
   }
-  const std::span<const Contact> all = find_contacts(services, bodies, struck_velocity_, struck_spin_, dt);
-  if (dvi::add_crossed(bodies, all, {struck_velocity_, struck_spin_}, dt, seen_)) return true;
-  assembly_.move_contacts(seen_);
-  return false;
+  const std::span<const Contact> walls = services.wall_contacts(bodies, struck_, struck_velocity_, struck_spin_, dt);
+  seen_.assign(found.begin(), found.end());
+  return dvi::add_crossed(bodies, walls, {struck_velocity_, struck_spin_}, dt, seen_);
 }
 
 dvi::JoinedBodies Dvi::pose_joints(Machine* machine, const BodyView& bodies, double time, double dt) {

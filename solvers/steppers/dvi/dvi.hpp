@@ -52,9 +52,7 @@ class Dvi final : public TimeStepper {
   };
 
   void free_motion(StepServices& services, const BodyView& bodies, double time, double dt);
-  std::span<const Contact> find_contacts(StepServices& services, const BodyView& bodies,
-                                         const std::vector<Vec3>& velocity, const std::vector<Vec3>& angular_velocity,
-                                         double dt);
+  std::span<const Contact> find_contacts(StepServices& services, const BodyView& bodies, double dt);
   /// After solve(): whether bodies that were struck would cross a wall; seen_ then holds its contacts beside those `found`.
   bool look_again(StepServices& services, const BodyView& bodies, std::span<const Contact> found, double dt);
   [[nodiscard]] dvi::JoinedBodies pose_joints(Machine* machine, const BodyView& bodies, double time, double dt);
@@ -79,6 +77,7 @@ class Dvi final : public TimeStepper {
   std::vector<Vec3> velocity_, angular_velocity_;      ///< of all bodies: free, then with impulses
   std::vector<Vec3> surface_velocity_, surface_spin_;  ///< free, with surface motions; empty when no body has one
   std::vector<Vec3> struck_velocity_, struck_spin_;    ///< with the impulses; of a second look
+  std::vector<BodyIndex> struck_;                      ///< that impulses move farther than was looked for
   std::vector<Contact> seen_;  ///< contacts of the first look and those that the second one adds
   std::vector<double> gamma_;
   std::vector<Twist> w_;

@@ -25,13 +25,15 @@ double gap_after(const BodyView& bodies, const Contact& c, const Velocities& v, 
 
 }  // namespace
 
-bool is_struck(const BodyView& bodies, std::span<const BodyIndex> numbers, std::span<const Twist> w, double dt) {
+void find_struck(const BodyView& bodies, std::span<const BodyIndex> numbers, std::span<const Twist> w, double dt,
+                 std::vector<BodyIndex>& struck) {
+  struck.clear();
   for (std::size_t k = 0; k < w.size(); ++k) {
     const BodyIndex i = numbers[k];
     const double far = kUnforeseen * bodies.radius[i];
-    if (dt * dt * squared_norm(w[k].linear) > far * far && bodies.motion[i] == Motion::dynamic) return true;
+    if (dt * dt * squared_norm(w[k].linear) > far * far && bodies.motion[i] == Motion::dynamic) struck.push_back(i);
   }
-  return false;
+  std::ranges::sort(struck);
 }
 
 bool add_crossed(const BodyView& bodies, std::span<const Contact> found, const Velocities& after, double dt,

@@ -2,8 +2,8 @@
 //
 // Contacts are sought as far as bodies come at their free velocities. A grain at rest that a fast one strikes has its
 // velocity from the solve alone, and may be past a thin plate at the end of the step. So where impulses move a body by more
-// than half its radius, contacts are sought once more at the velocities that they give, and those at which the body would
-// cross the surface of one that forces do not move join the problem. Slow grains pay a comparison each.
+// than half its radius, its contacts with bodies that forces do not move are sought once more at the velocities that they
+// give, and those that it would cross join the problem. Slow grains pay a comparison each.
 #pragma once
 
 #include <span>
@@ -20,10 +20,10 @@ struct Velocities {
   std::span<const Vec3> angular;  ///< [rad/s]
 };
 
-/// True when some of the changes `w`, of the bodies `numbers`, moves a body that forces move by more than half its radius in
-/// `dt` [s].
-[[nodiscard]] bool is_struck(const BodyView& bodies, std::span<const BodyIndex> numbers, std::span<const Twist> w,
-                             double dt);
+/// Leaves in `struck`, in increasing order, those of the bodies `numbers` that forces move, and that their changes `w` move by
+/// more than half their radius in `dt` [s].
+void find_struck(const BodyView& bodies, std::span<const BodyIndex> numbers, std::span<const Twist> w, double dt,
+                 std::vector<BodyIndex>& struck);
 
 /// Puts those of the contacts `found` at the velocities `after` into `contacts` that are not there, have one body that forces
 /// do not move, and would be crossed by more than a quarter of the other's radius within `dt` [s]; both lists are in the

@@ -36,13 +36,17 @@ TEST(second_look, slow_bodies_do_not_ask_for_it) {
   const std::array<BodyIndex, 2> numbers{1, 2};
   const auto struck = [&](double speed) {
     const std::array<Twist, 2> change{Twist{}, Twist{{0, 0, -speed}, {}}};
-    return dvi::is_struck(w.host.state().view, numbers, change, 1e-3);
+    std::vector<BodyIndex> list;
+    dvi::find_struck(w.host.state().view, numbers, change, 1e-3, list);
+    return list;
   };
-  EXPECT_FALSE(struck(0.49));
-  EXPECT_TRUE(struck(0.51));
+  EXPECT_TRUE(struck(0.49).empty());
+  EXPECT_EQ(struck(0.51), std::vector<BodyIndex>{2});
   const std::array<BodyIndex, 1> wall{0};
   const std::array<Twist, 1> fast{Twist{{0, 0, 10}, {}}};
-  EXPECT_FALSE(dvi::is_struck(w.host.state().view, wall, fast, 1e-3));
+  std::vector<BodyIndex> list;
+  dvi::find_struck(w.host.state().view, wall, fast, 1e-3, list);
+  EXPECT_TRUE(list.empty());
 }
 
 // Law: of the contacts of a second look those with walls join that would be crossed, in order; neither those that are known,
