@@ -51,7 +51,7 @@ class StepServices {
   /// Tells that the step is about to change bodies; see TimeStepper::announces_motion().
   virtual void before_motion() {}
   /// The contacts of the dynamic bodies `few`, in increasing order, with those that forces do not move, at these velocities
-  /// of all bodies: for velocities that were not known when contacts() was called in the same step, whose answer stays
+  /// [m/s], [rad/s] of all bodies: for those that were not known when contacts() was called in the same step, whose answer stays
   /// valid. Sorted as those; valid until the next call of this.
   virtual std::span<const Contact> wall_contacts(const BodyView& bodies, std::span<const BodyIndex> few,
                                                  std::span<const Vec3> velocity, std::span<const Vec3> angular_velocity,
