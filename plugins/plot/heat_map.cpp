@@ -79,7 +79,8 @@ class Painter {
     for (std::size_t k = 0; k < map_.values.size(); ++k) {
       if (!std::isfinite(map_.values[k])) continue;
       const double x = kLeft + dx * static_cast<double>(k % map_.columns);
-      const double y = kTop + height_ - dy * static_cast<double>(k / map_.columns);
+      const std::size_t row = k / map_.columns;
+      const double y = kTop + height_ - dy * static_cast<double>(row);
       constexpr double kOverlap = 0.4;  // [px] hides the seams between cells
       box(canvas, {x, y}, {x + dx + kOverlap, y - dy - kOverlap},
           colour_of((map_.values[k] - range_.first) / (range_.second - range_.first)));
