@@ -1,6 +1,7 @@
 // Time and iterations to stated residuals, for every solver, from zero and from the guess of a run.
 //
 //     time_to_residual [--only=NAME,...] [--limit=N] [--no-map] LABEL=FILE[,FILE...] ...
+//     time_to_residual --guess=scaled|normal|both ...
 //     time_to_residual --events --only=NAME [--warm] [--limit=N] FILE
 //
 // A FILE is a bed (.txt), solved from zero, or a problem that `scree run --record-ccp` wrote (.h5), solved from zero and
@@ -10,7 +11,8 @@
 //
 // To a residual: one solve with it as tolerance, the least of three if short. To the natural map: the same with the largest
 // tolerance found, by interpolation, at which the map is small enough. One thread. --events says what happens as it happens, for
-// time_table.py, which ends what takes too long.
+// time_table.py, which ends what takes too long. --guess tries other guesses than the impulses of the step before: these times the number
+// with the least objective, their normal parts alone, both.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,6 +46,7 @@ struct Settings {
   std::vector<std::string> only;
   int limit = 4000;
   bool map = true, events = false, warm = false;
+  bool scaled = false, normal = false;  ///< what is made of a guess
 };
 
 using Clock = std::chrono::steady_clock;
@@ -242,6 +245,24 @@ void print(const std::string& name, const Row& row) {
   std::fflush(stdout);
 }
 
+// What is made of the impulses of the step before.
+std::vector<double> guess_from(const CcpProblem& problem, std::span<const double> before, const Settings& settings) {
+  std::vector<double> guess(before.begin(), before.end());
+  for (std::size_t k = 0; k < problem.contact_rows() && settings.normal; ++k) {
+    if (k % 3 != 0) guess[k] = 0.0;
+  }
+  if (!settings.scaled) return guess;
+  DelassusOperator delassus;
+  delassus.bind(problem, nullptr);
+  double linear = 0.0;
+  for (std::size_t k = 0; k < guess.size(); ++k) linear += problem.r[k] * guess[k];
+  const double quadratic = 2.0 * (delassus.objective(guess) - linear);
+  const double best = quadratic > 0.0 ? std::max(0.0, -linear / quadratic) : 1.0;
+  fmt::print("(guess times {:.3f})\n", best);
+  for (double& g : guess) g *= best;
+  return guess;
+}
+
 void measure(const PluginHost& host, const Settings& settings, const std::string& label,
              const std::vector<Problem>& problems) {
   std::size_t contacts = 0;
@@ -252,11 +273,14 @@ void measure(const PluginHost& host, const Settings& settings, const std::string
                problems.size(), contacts);
     for (const double residual : kResiduals) fmt::print(" {:g} m/s |", residual);
     fmt::print(" natural map {:g} |\n|---|---|---|---|---|\n", kMap);
+    std::vector<std::vector<double>> guesses;
+    for (const Problem& p : problems) {
+      guesses.push_back(warm ? guess_from(p.problem(), p.record->guess, settings) : std::vector<double>{});
+    }
     for (const Method& method : methods_of(host, settings)) {
       std::vector<Row> rows;
       for (const Problem& p : problems) {
-        const std::span<const double> guess =
-            warm ? std::span<const double>{p.record->guess} : std::span<const double>{};
+        const std::span<const double> guess = guesses[rows.size()];
         rows.push_back(Trial{host, method, p.problem(), guess, settings}.run());
       }
       print(method.name, mean(rows));
@@ -285,6 +309,9 @@ int run(const std::vector<std::string>& arguments) {
       settings.map = false;
     } else if (argument == "--events") {
       settings.events = true;
+    } else if (argument.starts_with("--guess=")) {
+      settings.scaled = argument != "--guess=normal";
+      settings.normal = argument != "--guess=scaled";
     } else if (argument == "--warm") {
       settings.warm = true;
     } else if (settings.events && !argument.starts_with("--")) {

@@ -25,12 +25,6 @@ double squared_map(const CcpBlock& block, std::span<const double> g, std::span<c
   return total;
 }
 
-/// Square of the residual of one block, as above.
-double squared_residual(const CcpBlock& block, std::span<const double> g, std::span<const double> u, double trace) {
-  const double s = block.rows / trace;
-  return squared_map(block, g, u, s) / (s * s);
-}
-
 /// The larger of both; infinite when `error` is not a number.
 double worse(double worst, double error) {
   if (error <= worst) return worst;
@@ -84,12 +78,18 @@ void judge_unit(const CcpBlock& block, std::span<const double> g, std::span<cons
   squares.coulomb += squared_map(block, g, coulomb, 1.0);
   out.impulse_violation = worse(out.impulse_violation, violation(block, g));
   if (trace == 0.0) return;
-  squares.worst_coulomb = worse(squares.worst_coulomb, squared_residual(block, g, coulomb, trace));
+  squares.worst_coulomb = worse(squares.worst_coulomb, squared_block_residual(block, g, coulomb, trace));
   out.velocity_violation = worse(out.velocity_violation, velocity_violation(block, u));
   out.complementarity_gap += complementarity_gap(block, g, u);
 }
 
 }  // namespace
+
+double squared_block_residual(const CcpBlock& block, std::span<const double> g, std::span<const double> u,
+                              double trace) {
+  const double s = block.rows / trace;
+  return squared_map(block, g, u, s) / (s * s);
+}
 
 double ccp_residual(const DelassusOperator& delassus, std::span<const double> gamma, std::span<const Twist> w,
                     std::vector<double>& partial) {
@@ -118,7 +118,7 @@ double ccp_residual(const DelassusOperator& delassus, std::span<const double> ga
           BlockVector u;
           delassus.block_velocity(i, w, gamma, u);
           for (std::size_t k = 0; k < block.rows; ++k) u[k] += r[k];
-          worst = worse(worst, squared_residual(block, g, {u.data(), block.rows}, trace));
+          worst = worse(worst, squared_block_residual(block, g, {u.data(), block.rows}, trace));
         });
     partial[first / DelassusOperator::kGrain] = worst;
   });

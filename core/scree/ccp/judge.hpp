@@ -53,6 +53,10 @@ class CcpJudge {
   std::vector<double> u_;
 };
 
+/// Square of the residual of one block [m2/s2]: impulse `g` [N s], velocity `u` [m/s], `trace` of N_ii [1/kg], above zero.
+[[nodiscard]] double squared_block_residual(const CcpBlock& block, std::span<const double> g, std::span<const double> u,
+                                            double trace);
+
 /// The residual of `operator_`'s problem for the impulses `gamma` [N s] and the
 /// body velocities w = M^-1 D gamma that belong to them [m/s]. `partial` is
 /// workspace.

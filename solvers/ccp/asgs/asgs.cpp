@@ -97,7 +97,7 @@ void Asgs::prepare_sweeps(const CcpProblem& problem) {
   conjugate_ = takes_conjugate_steps(problem) && failures_ < kFailures;
   if (conjugate_) {
     for (std::size_t k = 0; k < history_.size(); ++k) history_[k].y = history_[k].x_old;
-    steps_.start(contacts_.bodies(), linear_);
+    steps_.start(contacts_.bodies(), linear_ + block_momentum_.sums(blocks_).linear);
   }
 }
 
@@ -156,6 +156,8 @@ void Asgs::backward(const Executor* executor) {
 void Asgs::advance(bool both, const Executor* executor) {
   if (conjugate_) {
     steps_.go(contacts_.bodies(), delassus_);
+    block_momentum_.take_conjugate_step(blocks_, steps_.a(), steps_.b());
+    blocks_.sweep(false);
     const Lanes a = Lanes{} + steps_.a(), b = Lanes{} + steps_.b();
     forward(
         [a, b](History& history, const Lanes3& z) {
@@ -182,11 +184,13 @@ void Asgs::advance(bool both, const Executor* executor) {
   if (!both) return;
   backward(executor);
   blocks_.sweep(true);
-  against_ = block_momentum_.sums(blocks_).against;
+  const AsgsSums of_blocks = block_momentum_.sums(blocks_);
+  against_ = of_blocks.against;
   linear_old_ = linear_;
   linear_ = 0.0;
   for (const AsgsSums& s : sums_) against_ += s.against, linear_ += s.linear;
-  objective_ = conjugate_ ? steps_.measure(contacts_.bodies(), inertia_, delassus_) + linear_ : objective();
+  const double rows = linear_ + of_blocks.linear;
+  objective_ = (conjugate_ ? steps_.measure(contacts_.bodies(), inertia_, delassus_) : kinetic_energy()) + rows;
 }
 
 double Asgs::objective() { return kinetic_energy() + block_momentum_.sums(blocks_).linear + linear_; }
@@ -194,7 +198,7 @@ double Asgs::objective() { return kinetic_energy() + block_momentum_.sums(blocks
 // Where the next pair starts.
 void Asgs::plan(bool uphill) {
   if (conjugate_) {
-    const bool good = !uphill && steps_.choose(linear_);
+    const bool good = !uphill && steps_.choose(linear_ + block_momentum_.sums(blocks_).linear);
     if (good) return;
     steps_.plain();
     conjugate_ = !uphill && ++failures_ < kFailures;
@@ -228,8 +232,9 @@ void Asgs::return_to_best() {
   contacts_.set_impulses(x_best_);
   delassus_.body_velocities(x_best_, w_);
   contacts_.set_velocities(w_);
+  blocks_.set_impulses(x_best_);
   objective_ = delassus_.objective(x_best_);
-  linear_ = objective_ - kinetic_energy();
+  linear_ = objective_ - kinetic_energy() - block_momentum_.sums(blocks_).linear;
 }
 
 // Back to where the last pair came from.

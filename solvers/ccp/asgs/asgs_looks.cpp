@@ -70,17 +70,17 @@ int Asgs::look_distance(const SolveSummary& summary, double tolerance) const {
 }
 
 bool Asgs::may_finish(const SolveContext& context, const SolveSummary& summary) const {
-  return options_.relaxed && delassus_.problem().blocks.empty() && summary.iterations >= next_finish_ &&
+  return options_.relaxed && delassus_.problem().matrix.empty() && summary.iterations >= next_finish_ &&
          summary.residual > context.tolerance && summary.iterations < context.max_iterations;
 }
 
-// Updates those contacts of x that miss the tolerance; the sweeps go on from where they were if that is not enough.
+// Updates those units of x that miss the tolerance; the sweeps go on from where they were if that is not enough.
 void Asgs::finish(const SolveContext& context, SolveSummary& summary) {
-  const std::size_t contacts = delassus_.problem().contacts.size();
+  const std::size_t units = delassus_.problem().units();
   const auto passes = static_cast<std::size_t>(std::min(kPasses, context.max_iterations - summary.iterations));
-  const Southwell::Outcome outcome = southwell_.relax(x_, w_, kTarget * context.tolerance, passes * contacts);
+  const Southwell::Outcome outcome = southwell_.relax(x_, w_, kTarget * context.tolerance, passes * units);
   if (outcome.visits == 0) return;
-  const int last = summary.iterations + static_cast<int>((outcome.visits + contacts - 1) / contacts);
+  const int last = summary.iterations + static_cast<int>((outcome.visits + units - 1) / units);
   delassus_.body_velocities(x_, w_);
   const double now = ccp_residual(delassus_, x_, w_, partial_);
   if (now < summary.residual) {

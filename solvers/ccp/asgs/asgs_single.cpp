@@ -25,7 +25,7 @@ constexpr int kPatience = 12;
 }  // namespace
 
 bool Asgs::takes_conjugate_steps(const CcpProblem& problem) const {
-  return options_.accelerated && options_.conjugate && problem.blocks.empty() && problem.compliance.empty();
+  return options_.accelerated && options_.conjugate && problem.matrix.empty() && problem.compliance.empty();
 }
 
 // The residual down to which single precision serves [m/s]; infinite where it does not at all.

@@ -14,7 +14,7 @@ struct AsgsSums {
   double linear = 0.0;   ///< r^T x + 1/2 x^T E x, and with a matrix 1/2 x^T v [J]
 };
 
-/// Iterate before the last pair of sweeps, and where the pair started, of a BlockSweep's rows.
+/// Iterate before the last pair of sweeps (with conjugate steps the start before), and where the pair started, of a BlockSweep's rows.
 class BlockMomentum {
  public:
   void start(BlockSweep& blocks) {
@@ -35,6 +35,16 @@ class BlockMomentum {
     go_on(blocks.g(), x_old_);
     go_on(blocks.v(), v_old_);
     std::copy(blocks.g().begin(), blocks.g().end(), y_.begin());
+  }
+
+  /// From z to y' = y + a (z - y) + b (y - y_old), of conjugate steps; y becomes y_old. Without a matrix only.
+  void take_conjugate_step(BlockSweep& blocks, double a, double b) {
+    const std::span<double> z = blocks.g();
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const double y = y_[i];
+      y_[i] = z[i] = y + a * (z[i] - y) + b * (y - x_old_[i]);
+      x_old_[i] = y;
+    }
   }
 
   void undo(BlockSweep& blocks) const {

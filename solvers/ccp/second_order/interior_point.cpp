@@ -272,6 +272,7 @@ SolveSummary InteriorPoint::solve(const CcpProblem& problem, const SolveContext&
     newton_.run(system_, problem, kFinish, context, gamma, best_, summary);
     // What lies too badly for that is now and then near to be had from the guess.
     if (!best_.done()) newton_.run(system_, problem, {}, context, guess_, best_, summary);
+    newton_.insist(system_, problem, context, best_, summary);
   }
   best_.conclude(summary);
   return summary;

@@ -1,6 +1,7 @@
 #include "proximal_newton.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,9 @@ constexpr int kTrials = 30;
 constexpr double kRoundingShare = 0.1, kLeastPenalty = 10.0;
 /// Iterations without a better residual until it is said to stall.
 constexpr int kPatience = 60;
+/// What is tried from the best answer when all else has stalled: stiff at once, slowly stiffer, soft, beyond what rounding should allow.
+constexpr std::array<PenaltyOptions, 4> kInsistence{
+    {{1e4, 3.0, 1e6}, {10.0, 3.0, 1e5}, {0.1, 2.0, 1e4}, {1e6, 10.0, 1e11, false}}};
 
 double dot_product(std::span<const double> a, std::span<const double> b) {
   double sum = 0.0;
@@ -206,11 +210,12 @@ void ProximalNewton::run(direct::DirectSystem& system, const CcpProblem& problem
   c_.assign(system.block_numbers(), 0.0);
   centre_.assign(start.begin(), start.end());
   p_ = centre_;
-  sigma_ = bounded(options.first, context.tolerance);
-  const double most = bounded(options.most, context.tolerance);
+  sigma_ = options.bounded ? bounded(options.first, context.tolerance) : options.first;
+  const double most = options.bounded ? bounded(options.most, context.tolerance) : options.most;
   restart();
   project(0.0);
   int last_progress = summary.iterations;
+  double least = std::numeric_limits<double>::infinity();
   while (!best.done() && summary.iterations < context.max_iterations) {
     if (is_solved(context.tolerance)) {
       centre_ = p_;
@@ -221,12 +226,24 @@ void ProximalNewton::run(direct::DirectSystem& system, const CcpProblem& problem
     }
     const bool moved = newton_step();
     const int k = ++summary.iterations;
-    const double before = best.residual(), now = best.offer(p_);
-    if (best.residual() < before) last_progress = k;
+    const double now = best.offer(p_);
+    if (now < least)
+      least = now, last_progress = k;  // of this run, which may come from farther away than the best answer
     if (context.on_iteration) context.on_iteration({k, now});
     if (!moved || k - last_progress > kPatience) {
       summary.status = SolveStatus::stalled;
       return;
+    }
+  }
+}
+
+void ProximalNewton::insist(direct::DirectSystem& system, const CcpProblem& problem, const SolveContext& context,
+                            direct::BestAnswer& best, SolveSummary& summary) {
+  for (const PenaltyOptions& options : kInsistence) {
+    double before = std::numeric_limits<double>::infinity();
+    while (!best.done() && best.residual() < 0.5 * before && summary.iterations < context.max_iterations) {
+      before = best.residual();
+      run(system, problem, options, context, best.gamma(), best, summary);
     }
   }
 }

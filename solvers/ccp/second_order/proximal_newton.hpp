@@ -33,6 +33,7 @@ struct PenaltyOptions {
   double first = 10.0;   ///< sigma of the first outer step [1]
   double growth = 10.0;  ///< its factor from one to the next [1]
   double most = 1e5;     ///< and its limit: rounding grows with it [1]
+  bool bounded = true;   ///< and by what rounding allows for the tolerance
 };
 
 /// Works on a bound DirectSystem. Keeps its memory between calls.
@@ -42,6 +43,10 @@ class ProximalNewton {
   /// helps: then the status is stalled. Adds its steps, one factorisation each, to `summary`.
   void run(direct::DirectSystem& system, const CcpProblem& problem, const PenaltyOptions& options,
            const SolveContext& context, std::span<const double> start, direct::BestAnswer& best, SolveSummary& summary);
+
+  /// The same from the best answer so far, with other penalties, as often as that brings it nearer. Does nothing when that is good enough.
+  void insist(direct::DirectSystem& system, const CcpProblem& problem, const SolveContext& context,
+              direct::BestAnswer& best, SolveSummary& summary);
 
  private:
   void restart();

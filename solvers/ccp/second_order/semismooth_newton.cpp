@@ -38,6 +38,7 @@ SolveSummary SemismoothNewton::solve(const CcpProblem& problem, const SolveConte
   if (!best_.done()) {
     system_.bind(problem);
     newton_.run(system_, problem, options_, context, gamma, best_, summary);
+    newton_.insist(system_, problem, context, best_, summary);
   }
   best_.conclude(summary);
   return summary;

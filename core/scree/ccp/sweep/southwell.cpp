@@ -1,9 +1,12 @@
 #include "scree/ccp/sweep/southwell.hpp"
 
+#include <array>
 #include <utility>
 
 #include "scree/base/release.hpp"
+#include "scree/ccp/block_rows.hpp"
 #include "scree/ccp/contact_residual.hpp"
+#include "scree/ccp/judge.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
 #include "scree/ccp/sweep/sequence.hpp"
 
@@ -13,36 +16,39 @@ void Southwell::bind(const DelassusOperator& delassus) {
   delassus_ = &delassus;
   has_neighbours_ = false;
   const CcpProblem& problem = delassus.problem();
-  const std::size_t contacts = problem.contacts.size();
+  const std::size_t units = problem.units();
   make_room(problem.bodies() + 1, first_);
-  make_room(2 * contacts, contacts_);
-  make_room(contacts, queue_, waits_);
+  make_room(2 * units, units_);
+  make_room(units, queue_, waits_);
 }
 
 void Southwell::find_neighbours() {
   const CcpProblem& problem = delassus_->problem();
   const auto for_bodies = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < problem.contacts.size(); ++i) {
-      for (const std::uint32_t body : {problem.contacts[i].a, problem.contacts[i].b}) {
-        if (problem.inverse_mass[body] > 0.0) visit(body, i);
-      }
-    }
+    const auto go = [&](std::uint32_t unit, std::uint32_t a, std::uint32_t b) {
+      if (problem.inverse_mass[a] > 0.0) visit(a, unit);
+      if (a != b && problem.inverse_mass[b] > 0.0) visit(b, unit);
+    };
+    std::uint32_t unit = 0;
+    for (const CcpContact& contact : problem.contacts) go(unit++, contact.a, contact.b);
+    for (const CcpBlock& block : problem.blocks) go(unit++, block.a, block.b);
   };
   first_.assign(problem.bodies() + 1, 0);
   for_bodies([&](std::uint32_t body, std::uint32_t) { ++first_[body]; });
   std::uint32_t end = 0;
   for (std::uint32_t& first : first_) end = first += end;
-  contacts_.resize(end);
-  // From the back: what was the end of a body's contacts becomes their begin.
-  for_bodies([&](std::uint32_t body, std::uint32_t i) { contacts_[--first_[body]] = i; });
+  units_.resize(end);
+  // From the back: what was the end of a body's units becomes their begin, and blocks come first.
+  for_bodies([&](std::uint32_t body, std::uint32_t unit) { units_[--first_[body]] = unit; });
+  steps_.bind(problem, {});
   has_neighbours_ = true;
 }
 
-void Southwell::push(std::uint32_t i) {
-  if (waits_[i] != 0) return;
-  waits_[i] = 1;
+void Southwell::push(std::uint32_t unit) {
+  if (waits_[unit] != 0) return;
+  waits_[unit] = 1;
   const std::size_t at = head_ + count_++;
-  queue_[at < queue_.size() ? at : at - queue_.size()] = i;
+  queue_[at < queue_.size() ? at : at - queue_.size()] = unit;
 }
 
 // The velocity of a contact that misses the target (judge.hpp).
@@ -57,17 +63,38 @@ std::optional<Vec3> Southwell::miss(std::size_t i, const Vec3& g, std::span<cons
   return residual > target * target ? std::optional{u} : std::nullopt;
 }
 
-// False when too many contacts miss the target.
-bool Southwell::collect(std::span<const double> gamma, std::span<const Twist> w, double target) {
+// The same of a block.
+std::optional<BlockVector> Southwell::miss_of_block(std::size_t block, std::span<const double> gamma,
+                                                    std::span<const Twist> w, double target) const {
+  const CcpProblem& problem = delassus_->problem();
+  const CcpBlock& b = problem.blocks[block];
+  const double trace = delassus_->traces()[problem.contacts.size() + block];
+  if (!(trace > 0.0)) return std::nullopt;
+  BlockVector u{};
+  delassus_->block_velocity(block, w, gamma, u);
+  const std::span<const double> r = rows_of(problem, b, problem.r);
+  for (std::size_t k = 0; k < b.rows; ++k) u[k] += r[k];
+  const double residual = squared_block_residual(b, rows_of(problem, b, gamma), {u.data(), b.rows}, trace);
+  return residual > target * target ? std::optional{u} : std::nullopt;
+}
+
+bool Southwell::misses(std::size_t unit, std::span<const double> gamma, std::span<const Twist> w, double target) const {
   const std::size_t contacts = delassus_->problem().contacts.size();
-  const auto few = static_cast<std::size_t>(kFew * static_cast<double>(contacts));
-  queue_.resize(contacts);
-  waits_.assign(contacts, 0);
+  return unit < contacts ? miss(unit, load_block(gamma, unit), w, target).has_value()
+                         : miss_of_block(unit - contacts, gamma, w, target).has_value();
+}
+
+// False when too many units miss the target.
+bool Southwell::collect(std::span<const double> gamma, std::span<const Twist> w, double target) {
+  const std::size_t units = delassus_->problem().units();
+  const auto few = static_cast<std::size_t>(kFew * static_cast<double>(units));
+  queue_.resize(units);
+  waits_.assign(units, 0);
   head_ = count_ = 0;
-  for (std::uint32_t i = 0; i < contacts; ++i) {
-    if (!miss(i, load_block(gamma, i), w, target)) continue;
+  for (std::uint32_t unit = 0; unit < units; ++unit) {
+    if (!misses(unit, gamma, w, target)) continue;
     if (count_ > few) return false;
-    push(i);
+    push(unit);
   }
   return true;
 }
@@ -89,32 +116,70 @@ void Southwell::update(std::size_t i, const Vec3& u, std::span<double> gamma, st
   }
 }
 
+void Southwell::update_block(std::size_t block, const BlockVector& u, std::span<double> gamma,
+                             std::span<Twist> w) const {
+  const CcpProblem& problem = delassus_->problem();
+  const CcpBlock& b = problem.blocks[block];
+  const std::span<double> g = rows_of(problem, b, gamma);
+  BlockVector change{};
+  for (std::size_t k = 0; k < b.rows; ++k) change[k] = -g[k];
+  steps_.advance(block, {u.data(), b.rows}, g);
+  for (std::size_t k = 0; k < b.rows; ++k) change[k] += g[k];
+  Twist on_a{}, on_b{};
+  add_impulse(jacobian_of(problem, b), {change.data(), b.rows}, on_a, on_b);
+  for (const auto& [body, impulse] : {std::pair{b.a, on_a}, std::pair{b.b, on_b}}) {
+    const Twist more = apply_inverse_mass(problem, body, impulse);
+    w[body].linear += more.linear;
+    w[body].angular += more.angular;
+  }
+}
+
+// Updates a unit that misses the target; false when it does not.
+bool Southwell::visit(std::size_t unit, std::span<double> gamma, std::span<Twist> w, double target) const {
+  const std::size_t contacts = delassus_->problem().contacts.size();
+  if (unit < contacts) {
+    const std::optional<Vec3> u = miss(unit, load_block(gamma, unit), w, target);
+    if (u) update(unit, *u, gamma, w);
+    return u.has_value();
+  }
+  const std::optional<BlockVector> u = miss_of_block(unit - contacts, gamma, w, target);
+  if (u) update_block(unit - contacts, *u, gamma, w);
+  return u.has_value();
+}
+
+// The units that share a body with this one; of a hub its blocks only. True when a hub is among the bodies.
+bool Southwell::push_neighbours(std::size_t unit) {
+  const CcpProblem& problem = delassus_->problem();
+  const std::size_t contacts = problem.contacts.size();
+  const auto bodies = unit < contacts
+                          ? std::array{problem.contacts[unit].a, problem.contacts[unit].b}
+                          : std::array{problem.blocks[unit - contacts].a, problem.blocks[unit - contacts].b};
+  bool any_hub = false;
+  for (const std::uint32_t body : bodies) {
+    const bool hub = first_[body + 1] - first_[body] > sweep::Sequence::kHub;
+    any_hub = any_hub || hub;
+    for (std::uint32_t k = first_[body]; k < first_[body + 1] && !(hub && units_[k] < contacts); ++k) push(units_[k]);
+  }
+  return any_hub;
+}
+
 Southwell::Outcome Southwell::relax(std::span<double> gamma, std::span<Twist> w, double target, std::size_t budget) {
   if (!collect(gamma, w, target)) return {};
   if (!has_neighbours_) find_neighbours();
-  const CcpProblem& problem = delassus_->problem();
   std::size_t visits = 0;
   bool hub_moved = false;
   for (; visits < budget; ++visits) {
     if (count_ == 0) {
       if (!std::exchange(hub_moved, false)) break;
-      visits += problem.contacts.size();
+      visits += delassus_->problem().units();
       if (!collect(gamma, w, target)) return {false, visits};
       if (count_ == 0) break;
     }
-    const std::uint32_t i = queue_[head_];
+    const std::uint32_t unit = queue_[head_];
     head_ = head_ + 1 < queue_.size() ? head_ + 1 : 0;
     --count_;
-    waits_[i] = 0;
-    const std::optional<Vec3> u = miss(i, load_block(gamma, i), w, target);
-    if (!u) continue;
-    update(i, *u, gamma, w);
-    const CcpContact& c = problem.contacts[i];
-    for (const std::uint32_t body : {c.a, c.b}) {
-      const bool hub = first_[body + 1] - first_[body] > sweep::Sequence::kHub;
-      hub_moved = hub_moved || hub;
-      for (std::uint32_t k = first_[body]; k < first_[body + 1] && !hub; ++k) push(contacts_[k]);
-    }
+    waits_[unit] = 0;
+    if (visit(unit, gamma, w, target)) hub_moved = push_neighbours(unit) || hub_moved;
   }
   return {count_ == 0 && !hub_moved, visits};
 }

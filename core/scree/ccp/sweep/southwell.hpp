@@ -1,4 +1,4 @@
-// Southwell: Gauss-Seidel updates of those contacts only whose residual is too large.
+// Southwell: Gauss-Seidel updates of those contacts and blocks only whose residual is too large.
 //
 // Late in a solve the residual, a largest value over all contacts, is that of very few: of 181 000 contacts of a bed, 300 were
 // above the tolerance when sweeps over all of them had done a third of the work. Relaxation as Southwell had it (1940,
@@ -16,39 +16,48 @@
 #include <vector>
 
 #include "scree/ccp/delassus.hpp"
+#include "scree/ccp/sweep/block_step.hpp"
 
 namespace scree {
 
-/// For problems whose units are all contacts. Keeps its memory between problems: 17 bytes a contact, 4 a body.
+/// For problems with bodies. Units are contacts, then blocks. Keeps its memory between problems: 17 bytes a unit, 4 a body.
 class Southwell {
  public:
-  /// A share of contacts that miss the target; with more of them sweeps over all are the better way [1].
+  /// A share of units that miss the target; with more of them sweeps over all are the better way [1].
   static constexpr double kFew = 0.05;
 
   /// The operator and its problem stay where they are during the use. The neighbours are looked up when first needed.
   void bind(const DelassusOperator& delassus);
 
   struct Outcome {
-    bool reached = false;    ///< every contact meets the target, up to the rounding of w
-    std::size_t visits = 0;  ///< contacts looked at for an update; a sweep over all has as many as there are contacts
+    bool reached = false;    ///< every unit meets the target, up to the rounding of w
+    std::size_t visits = 0;  ///< units looked at for an update; a sweep over all has as many as there are units
   };
   /// Lowers the residual of `gamma` [N s], whose body velocities are `w` [m/s, rad/s], to `target` [m/s], in at most `budget`
-  /// visits; nothing when too many contacts miss it. Both are kept up to date.
+  /// visits; nothing when too many units miss it. Both are kept up to date.
   Outcome relax(std::span<double> gamma, std::span<Twist> w, double target, std::size_t budget);
 
  private:
   [[nodiscard]] std::optional<Vec3> miss(std::size_t i, const Vec3& g, std::span<const Twist> w, double target) const;
+  [[nodiscard]] std::optional<BlockVector> miss_of_block(std::size_t block, std::span<const double> gamma,
+                                                         std::span<const Twist> w, double target) const;
+  [[nodiscard]] bool misses(std::size_t unit, std::span<const double> gamma, std::span<const Twist> w,
+                            double target) const;
   bool collect(std::span<const double> gamma, std::span<const Twist> w, double target);
   void find_neighbours();
+  bool visit(std::size_t unit, std::span<double> gamma, std::span<Twist> w, double target) const;
   void update(std::size_t i, const Vec3& u, std::span<double> gamma, std::span<Twist> w) const;
-  void push(std::uint32_t i);
+  void update_block(std::size_t block, const BlockVector& u, std::span<double> gamma, std::span<Twist> w) const;
+  bool push_neighbours(std::size_t unit);
+  void push(std::uint32_t unit);
 
   const DelassusOperator* delassus_ = nullptr;
   bool has_neighbours_ = false;
+  sweep::BlockSteps steps_;
   std::vector<std::uint32_t> first_,
-      contacts_;                      ///< body k, if movable, has contacts_[first_[k]] .. contacts_[first_[k + 1] - 1]
-  std::vector<std::uint32_t> queue_;  ///< a ring: each contact at most once
-  std::vector<char> waits_;           ///< per contact, in the queue
+      units_;  ///< body k, if movable, has units_[first_[k]] .. units_[first_[k + 1] - 1], blocks first
+  std::vector<std::uint32_t> queue_;  ///< a ring: each unit at most once
+  std::vector<char> waits_;           ///< per unit, in the queue
   std::size_t head_ = 0, count_ = 0;
 };
 

@@ -72,6 +72,44 @@ TEST(southwell, solves_where_the_residual_is_and_leaves_the_rest) {
   EXPECT_LE(outcome.visits, 200 * kHeight);
 }
 
+// The same columns, each tied to the floor by a joint of three rows in place of the lowest contact, which carries the same.
+TEST(southwell, joints_are_solved_as_contacts_are) {
+  constexpr std::size_t kEmpty = 77, kContacts = kHeight - 1;
+  TestingProblem t;
+  const std::uint32_t floor = t.add_immovable();
+  std::vector<double> guess, of_joints;
+  for (std::size_t column = 0; column < kColumns; ++column) {
+    for (std::size_t k = 0; k < kHeight; ++k) {
+      const std::uint32_t sphere = t.add_body(kMass, {1e-4, 1e-4, 1e-4});
+      const double carries = column == kEmpty ? 0.0 : carried(k);
+      if (k > 0) t.add_contact(sphere - 1, sphere, {0, 0, 1}, {0, 0, 0.05}, {0, 0, -0.05}, 0.5, {});
+      (k > 0 ? guess : of_joints).insert((k > 0 ? guess : of_joints).end(), {carries, 0.0, 0.0});
+    }
+  }
+  for (std::uint32_t column = 0; column < kColumns; ++column) {
+    const CcpBlock joint{.kind = CcpKind::free, .a = floor, .b = 1 + column * static_cast<std::uint32_t>(kHeight)};
+    t.add_block(joint, rows_at_a_point(3, false, {0, 0, 1}, {}, {0, 0, -0.05}, 1.0), {-kSpeed, 0.0, 0.0});
+  }
+  guess.insert(guess.end(), of_joints.begin(), of_joints.end());
+  const CcpProblem problem = t.view();
+  DelassusOperator delassus;
+  delassus.bind(problem, nullptr);
+  std::vector<Twist> w(problem.bodies());
+  delassus.body_velocities(guess, w);
+  Southwell southwell;
+  southwell.bind(delassus);
+  const Southwell::Outcome outcome = southwell.relax(guess, w, 1e-9, 1000000);
+  EXPECT_TRUE(outcome.reached);
+  EXPECT_LE(outcome.visits, 200 * kHeight);  // as with contacts alone
+  const double tolerance = 1e-9 * kMass * kHeight * kHeight;
+  for (std::size_t column = 0; column < kColumns; ++column) {
+    EXPECT_NEAR(guess[3 * (kColumns * kContacts + column)], carried(0), tolerance);
+    for (std::size_t k = 1; k < kHeight; ++k) {
+      EXPECT_NEAR(guess[3 * (column * kContacts + k - 1)], carried(k), tolerance);
+    }
+  }
+}
+
 TEST(southwell, velocities_stay_those_of_the_impulses) {
   std::vector<double> guess = solution();
   guess[3] = guess[4] = 0.0;

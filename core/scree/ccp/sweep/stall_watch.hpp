@@ -13,8 +13,8 @@ namespace scree {
 /// beside the largest velocity of r, and the second half of all iterations brought no new least value, nothing will come.
 class StallWatch {
  public:
-  static constexpr int kLeast = 1000;            ///< iterations without a new least value
-  static constexpr double kNearRounding = 1e-9;  ///< share of the largest velocity; mass ratios multiply rounding [1]
+  static constexpr int kLeast = 1000;             ///< iterations without a new least value
+  static constexpr double kNearRounding = 1e-11;  ///< share of the largest velocity [1]
 
   explicit StallWatch(std::span<const double> r) {
     for (const double velocity : r) small_ = std::max(small_, kNearRounding * std::abs(velocity));
