@@ -42,8 +42,7 @@ TEST(separation, of_a_regular_mixture_is_none) {
 TEST(separation, falls_with_what_is_exchanged) {
   AxisProfile axis{0.0, 40.0, 2, 1};
   std::vector<OnAxis> particles = column(40, [](int k) { return k < 20 ? kB : kA; });
-  for (const int k : {0, 5, 10, 15})
-    std::swap(particles[static_cast<std::size_t>(k)].of, particles[static_cast<std::size_t>(k + 20)].of);
+  for (const std::size_t k : {0u, 5u, 10u, 15u}) std::swap(particles[k].of, particles[k + 20].of);
   const Separation s = axis.look(particles);
   EXPECT_NEAR(s.index, 1.0 - 2.0 * 0.2, 1e-14);
   EXPECT_NEAR(s.intensity, (1.0 - 2.0 * 0.2) * (1.0 - 2.0 * 0.2), 1e-14);
