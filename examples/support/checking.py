@@ -12,6 +12,9 @@ import subprocess
 import sys
 
 
+STEPPERS = ("dvi", "dem")  # what scenes of granular flows are run with, one after the other
+
+
 class Run:
     """The results of one run: `json` is run.json, `table(name)` a CSV table by column, without units."""
 
@@ -31,6 +34,17 @@ def number(text):
         return float(text)
     except ValueError:
         return text
+
+
+def run_scene(program, scene, folder, settings, arguments=()):
+    """Runs a scene; `settings` are `--set` keys with double underscores for dots. Ends the script when the run fails."""
+    command = [str(program), "run", str(scene), "-o", str(folder), "--overwrite", "--quiet"]
+    for key, value in settings.items():
+        text = str(value).lower() if isinstance(value, bool) else str(value)
+        command += ["--set", f"{key.replace('__', '.')}={text}"]
+    done = subprocess.run(command + list(arguments), text=True, capture_output=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)}\nended with {done.returncode}:\n{done.stdout}{done.stderr}")
 
 
 class Check:
@@ -54,13 +68,7 @@ class Check:
     def run(self, name="run", scene=None, arguments=(), **settings):
         """Runs the scene; `settings` are `--set` keys with double underscores for dots (simulation__seed=2)."""
         folder = self.folder / name
-        command = [self.program, "run", str(scene or self.scene), "-o", str(folder), "--overwrite", "--quiet"]
-        for key, value in settings.items():
-            text = str(value).lower() if isinstance(value, bool) else str(value)
-            command += ["--set", f"{key.replace('__', '.')}={text}"]
-        done = subprocess.run(command + list(arguments), text=True, capture_output=True)
-        if done.returncode != 0:
-            sys.exit(f"{' '.join(command)}\nended with {done.returncode}:\n{done.stdout}{done.stderr}")
+        run_scene(self.program, scene or self.scene, folder, settings, arguments)
         return Run(folder)
 
     def holds(self, law, condition, measured=""):
