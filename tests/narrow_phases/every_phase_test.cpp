@@ -192,6 +192,21 @@ constexpr OncePose kOnce[] = {
     {kMesh, kMesh, 9989},
 };
 
+// Law: the middle of a cluster may lie inside of a mesh that none of its spheres touches.
+TEST(EveryNarrowPhaseOnce, a_cluster_about_a_mesh_is_not_inside) {
+  for (const int trial : {913, 1149}) {
+    const bool swapped = trial % 3 == 1;
+    const ShapeKind cluster = ShapeKind::sphere_cluster;
+    const NarrowPhasePose pose = narrow_phase_pose(swapped ? kMesh : cluster, swapped ? cluster : kMesh, trial);
+    for (const PluginEntry* entry : entries()) {
+      const auto phase = make_phase(*entry);
+      if (phase->supports(cluster, kMesh)) {
+        EXPECT_EQ(fault_of(*phase, pose), "") << entry->name;
+      }
+    }
+  }
+}
+
 // Law: a fault that has been mended stays mended.
 TEST(DefaultChain, holds_where_it_once_failed) {
   for (const OncePose& once : kOnce) {

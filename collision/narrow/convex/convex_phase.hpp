@@ -53,6 +53,8 @@ class ConvexPhase : public NarrowPhase {
   /// Where the middle of a solid lies inside of a closed mesh, its contacts with the facet nearest to that, along whose
   /// normal it is led out; false elsewhere. @param mesh_first the mesh is body a
   bool lead_out(Pair& pair, bool mesh_first) const;
+  /// The same of one part, whose middle is `middle` in the solid's frame [m]; where another one `is_inside`, that stays true.
+  bool lead_part_out(Pair& pair, bool mesh_first, std::uint32_t part, const Vec3& middle, bool is_inside) const;
   [[nodiscard]] Vec3 middle_of(std::uint32_t primitive) const;
   [[nodiscard]] std::optional<Separation> separate(Pair& pair, const ConvexSolid& a, const ConvexSolid& b) const;
   void find_parts(const Pair& pair, std::uint32_t primitive, const Pose& pose, std::uint32_t other,

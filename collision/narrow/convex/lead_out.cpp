@@ -29,33 +29,48 @@ bool ConvexPhase::lead_out(Pair& pair, bool mesh_first) const {
   const std::uint32_t mesh = mesh_first ? pair.a : pair.b, other = mesh_first ? pair.b : pair.a;
   const Primitive& solid = shapes_->primitives()[other];
   if (inside_[mesh] == nullptr || solid.kind == ShapeKind::plane) return false;
+  bool is_inside = false;
+  if (solid.kind != ShapeKind::sphere_cluster) return lead_part_out(pair, mesh_first, 0, middle_of(other), is_inside);
+  // The middle of a cluster may lie beside all of its spheres.
+  for (std::uint32_t part = 0; part < solid.sphere_count; ++part) {
+    is_inside = lead_part_out(pair, mesh_first, part, shapes_->spheres()[solid.first_sphere + part].centre, is_inside);
+  }
+  return is_inside;
+}
+
+bool ConvexPhase::lead_part_out(Pair& pair, bool mesh_first, std::uint32_t part, const Vec3& own_middle,
+                                bool is_inside) const {
+  const std::uint32_t mesh = mesh_first ? pair.a : pair.b, other = mesh_first ? pair.b : pair.a;
+  const Primitive& solid = shapes_->primitives()[other];
   const Pose& pose = pair.colliders.pose[mesh_first ? pair.pair.a : pair.pair.b];
   const Pose& placed = pair.colliders.pose[mesh_first ? pair.pair.b : pair.pair.a];
-  const Vec3 middle = transform_back(pose, transform(placed, middle_of(other)));
-  if (!contains(meshes_[mesh]->box(), middle)) return false;
   const MeshDistance& inside = *inside_[mesh];
+  const auto in_mesh = [&](const Vec3& p) { return transform_back(pose, transform(placed, p)); };
+  const Vec3 middle = in_mesh(own_middle);
+  if (!contains(meshes_[mesh]->box(), middle)) return is_inside;
   const MeshDistance::Closest nearest = inside.closest(middle);
-  if (!(nearest.distance < 0.0)) return false;
-  pair.out.resize(pair.begin);
+  if (!(nearest.distance < 0.0)) return is_inside;
+  const auto corners = shapes_->vertices().subspan(solid.first_vertex, solid.vertex_count);
+  // So may that of a bent mesh.
+  const bool is_mesh = solid.kind == ShapeKind::triangle_mesh;
+  if (is_mesh && !(inside.signed_distance(in_mesh(corners[0])) < 0.0)) return is_inside;
+  if (!is_inside) pair.out.resize(pair.begin);
   const Triangle& t = inside.mesh().triangles[nearest.triangle];
   const auto& v = inside.mesh().vertices;
   const Vec3 up = rotate(pose.orientation, normalized(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]])));
   const Vec3 foot = transform(pose, nearest.point);
-  const std::uint64_t count = part_count(other);
   const auto triangle = static_cast<std::uint64_t>(nearest.triangle);
-  const auto parts = [&](std::uint64_t part) {
-    return mesh_first ? triangle * count + part : part * inside.mesh().triangles.size() + triangle;
-  };
-  if (solid.kind != ShapeKind::triangle_mesh) {
-    for (std::uint32_t part = 0; part < count; ++part) touch_plane(pair, part, mesh_first, foot, up, parts(part));
+  const std::uint64_t parts =
+      mesh_first ? triangle * part_count(other) + part : part * inside.mesh().triangles.size() + triangle;
+  if (!is_mesh) {
+    touch_plane(pair, part, mesh_first, foot, up, parts);
     return true;
   }
-  const auto corners = shapes_->vertices().subspan(solid.first_vertex, solid.vertex_count);
   const auto height = [&](const Vec3& corner) { return dot(up, transform(placed, corner) - foot); };
   const Vec3& deepest = *std::ranges::min_element(corners, {}, height);
   const double gap = height(deepest) / pair.size;
   const Vec3 at = (transform(placed, deepest) - pair.origin) / pair.size;
-  pair.add(parts(0) << kPartShift, at - 0.5 * gap * up, mesh_first ? up : -up, gap);
+  pair.add(parts << kPartShift, at - 0.5 * gap * up, mesh_first ? up : -up, gap);
   return true;
 }
 
