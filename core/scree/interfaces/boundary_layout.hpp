@@ -64,6 +64,30 @@ constexpr void add_contact_problem(LayoutDigest& digest) {
                          offsetof(CcpMatrix, values)});
 }
 
+/// What is made, asked for and reported once a call.
+constexpr void add_rare_records(LayoutDigest& digest) {
+  digest.add<Parameter>();
+  digest.add<Variant>();
+  digest.add<Options>();
+  digest.add<Attributes>();
+  digest.add<AttributeInfo>();
+  digest.add<Material>();
+  digest.add<Materials>();
+  digest.add<NewBody>();
+  digest.add<NamedBody>();
+  digest.add<RemovedBody>();
+  digest.add<Observation>();
+  digest.add<ReportTable>();
+  digest.add<RandomStream>();
+  digest.add<Shape>();
+  digest.add<ShapeData>();
+  digest.add<PrimitiveData>();
+  digest.add<ShapeSet>();
+  digest.add<SolveContext>();
+  digest.add<SolveSummary>();
+  digest.add<StepSummary>();
+}
+
 /// The digest of the code being compiled.
 constexpr std::uint64_t boundary_layout() {
   LayoutDigest digest;
@@ -106,27 +130,7 @@ constexpr std::uint64_t boundary_layout() {
   digest.add<BodyPair>();
   digest.add<NeighbourView>();
   digest.add<ContactScale>();
-  // What is made, asked for and reported once a call.
-  digest.add<Parameter>();
-  digest.add<Variant>();
-  digest.add<Options>();
-  digest.add<Attributes>();
-  digest.add<AttributeInfo>();
-  digest.add<Material>();
-  digest.add<Materials>();
-  digest.add<NewBody>();
-  digest.add<NamedBody>();
-  digest.add<RemovedBody>();
-  digest.add<Observation>();
-  digest.add<ReportTable>();
-  digest.add<RandomStream>();
-  digest.add<Shape>();
-  digest.add<ShapeData>();
-  digest.add<PrimitiveData>();
-  digest.add<ShapeSet>();
-  digest.add<SolveContext>();
-  digest.add<SolveSummary>();
-  digest.add<StepSummary>();
+  add_rare_records(digest);
   return digest.value();
 }
 

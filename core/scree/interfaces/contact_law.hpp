@@ -32,7 +32,9 @@ struct ContactBatch {
   struct Lanes3 {
     alignas(64) Lane x, y, z;
 
+    /// The vector of contact k [its lanes' unit].
     Vec3 operator[](std::size_t k) const { return {x[k], y[k], z[k]}; }
+    /// Sets it [its lanes' unit].
     void set(std::size_t k, const Vec3& v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
   };
 
@@ -55,9 +57,8 @@ struct ContactBatch {
   std::array<Lane, kMostHistory> history;  ///< ContactLaw::history_size() doubles a contact; zero where it is new
 
   // What a law writes.
-  Lanes3 force;  ///< on b, and its opposite on a, each at its own surface [N], world
-  Lanes3
-      torque;  ///< on b, and its opposite on a, beside that of the force: rolling and spinning resistance [N m], world
+  Lanes3 force;   ///< on b, and its opposite on a, each at its own surface [N], world
+  Lanes3 torque;  ///< on b, and its opposite on a, beside the force's: resistance to rolling and spinning [N m], world
 };
 
 /// The stiffest contact of two materials in a scene, for the time step.

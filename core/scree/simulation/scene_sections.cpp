@@ -140,6 +140,28 @@ std::vector<Variant> primitive_variants(const std::vector<Parameter>& placed) {
   return all;
 }
 
+SceneSection body_section() {
+  return {"body", SectionForm::list, "A body that exists from the start.",
+          std::vector<Parameter>{
+              Parameter::text("name", "by which parts and messages refer to it").by_default(""),
+              Parameter::text("shape", "name of a shape"), Parameter::text("material", "name of a material"),
+              Parameter::choice("motion", {"dynamic", "kinematic", "fixed"}, "by forces, as told, or not at all")
+                  .by_default("fixed"),
+              Parameter::vector("velocity", "m/s", "of the centre of mass; of a kinematic body for ever")
+                  .by_default(Vec3{}),
+              Parameter::vector("angular_velocity", "rad/s", "world frame; of a kinematic body for ever")
+                  .by_default(Vec3{}),
+              Parameter::vector("surface_velocity", "m/s",
+                                "of the surface against the body, in the axes of its shape: a conveyor belt")
+                  .by_default(Vec3{}),
+              Parameter::vector("surface_angular_velocity", "rad/s",
+                                "of the surface against the body, about the origin of its shape: a turntable")
+                  .by_default(Vec3{}),
+              Parameter::boolean("collides", "false: nothing touches the body").by_default(true), group_parameter(),
+              frames_parameter(), Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
+              pose_parameters()};
+}
+
 std::vector<SceneSection> model_sections() {
   return {
       {"simulation",
@@ -181,25 +203,7 @@ std::vector<SceneSection> model_sections() {
        SectionForm::list,
        "Two bodies that never touch each other, whatever their groups.",
        {Parameter::texts("between", "names of the two bodies").with_count(2)}},
-      {"body", SectionForm::list, "A body that exists from the start.",
-       std::vector<Parameter>{
-           Parameter::text("name", "by which parts and messages refer to it").by_default(""),
-           Parameter::text("shape", "name of a shape"), Parameter::text("material", "name of a material"),
-           Parameter::choice("motion", {"dynamic", "kinematic", "fixed"}, "by forces, as told, or not at all")
-               .by_default("fixed"),
-           Parameter::vector("velocity", "m/s", "of the centre of mass; of a kinematic body for ever")
-               .by_default(Vec3{}),
-           Parameter::vector("angular_velocity", "rad/s", "world frame; of a kinematic body for ever")
-               .by_default(Vec3{}),
-           Parameter::vector("surface_velocity", "m/s",
-                             "of the surface against the body, in the axes of its shape: a conveyor belt")
-               .by_default(Vec3{}),
-           Parameter::vector("surface_angular_velocity", "rad/s",
-                             "of the surface against the body, about the origin of its shape: a turntable")
-               .by_default(Vec3{}),
-           Parameter::boolean("collides", "false: nothing touches the body").by_default(true), group_parameter(),
-           frames_parameter(), Parameter::columns("attributes", {}, "any", "body attributes, in SI").optional()} +
-           pose_parameters()},
+      body_section(),
       {"prescribed_motion", SectionForm::list, "How a kinematic body moves, as functions of time or along a path.",
        prescribed_motion_parameters()}};
 }
