@@ -214,6 +214,11 @@ void ColliderSet::follow(const ShapeSet& shapes, const BodyView& bodies, std::sp
   executor.for_chunks(which.size(), kBodiesPerChunk, [&](std::size_t first, std::size_t last) {
     for (const ColliderIndex k : which.subspan(first, last - first)) {
       const BodyIndex i = body_[k];
+      if (shapes_[bodies.shape[i]].single_sphere) {
+        ball_[k].centre = bodies.position[i];
+        if (use_.sphere_poses) pose_[k] = {bodies.position[i], bodies.orientation[i]};
+        continue;
+      }
       pose_[k] = Pose{bodies.position[i], bodies.orientation[i]} * shapes.primitives()[primitive_[k]].local;
       ball_[k].centre = pose_[k].position;
     }
