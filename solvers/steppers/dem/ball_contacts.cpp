@@ -48,21 +48,36 @@ void BallContacts::measure(const Evaluation& e, Work& w) {
 /// What lies in memory body by body and pair by pair, contact after contact.
 void BallContacts::gather(const Slots& slots, const Evaluation& e, Work& w) const {
   ContactBatch& batch = w.batch;
-  for (std::size_t k = 0; k < batch.count; ++k) {
-    const Pair pair = pairs_[w.pair[k]];
-    const Moving &a = slots.moving[pair.a], &b = slots.moving[pair.b];
+  const Pair* const pairs = pairs_.data();
+  const Moving* const moving = slots.moving.data();
+  const std::uint8_t* const all_flags = flags_.data();
+  const std::size_t materials = e.materials, count = batch.count;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Pair pair = pairs[w.pair[k]];
+    const Moving &a = moving[pair.a], &b = moving[pair.b];
     batch.velocity.set(k, b.linear - a.linear);
     w.rim.set(k, w.arm_a[k] * a.angular + w.arm_b[k] * b.angular);
     w.inverse_mass[k] = a.inverse_mass + b.inverse_mass;
-    const std::uint8_t flags = flags_[w.pair[k]];
+    batch.materials[k] = static_cast<std::uint32_t>(a.material * materials + b.material);
+    const std::uint8_t flags = all_flags[w.pair[k]];
     w.is_new[k] = (flags & kTouching) == 0 ? 1.0 : 0.0;
     w.leaving[k] = (flags & kLeaving) == 0 ? 0.0 : 1.0;
-    batch.materials[k] = static_cast<std::uint32_t>(a.material * e.materials + b.material);
-    if (rolls_) batch.spin.set(k, b.angular - a.angular);
+  }
+  for (std::size_t k = 0; rolls_ && k < count; ++k) {
+    const Pair pair = pairs[w.pair[k]];
+    batch.spin.set(k, moving[pair.b].angular - moving[pair.a].angular);
   }
   const std::size_t history = history_, stride = stride_;
-  for (std::size_t k = 0; k < batch.count; ++k) {
-    const double* const record = records_.data() + stride * w.pair[k];
+  const double* const records = records_.data();
+  if (history == 3) {  // a tangential spring: most laws
+    for (std::size_t k = 0; k < count; ++k) {
+      const double* const record = records + stride * w.pair[k];
+      batch.history[0][k] = record[0], batch.history[1][k] = record[1], batch.history[2][k] = record[2];
+    }
+    return;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* const record = records + stride * w.pair[k];
     for (std::size_t j = 0; j < history; ++j) batch.history[j][k] = record[j];
   }
 }
@@ -88,33 +103,46 @@ void BallContacts::combine(const Evaluation& e, Work& w) {
 void BallContacts::scatter(Slots& slots, const Evaluation& e, std::size_t chunk, Work& w) {
   const ContactBatch& batch = w.batch;
   const double time = kick_time(e);
-  Wrench* const ghosts = ghosts_.data() + ghost_begin_[chunk];
+  const Pair* const pairs = pairs_.data();
+  Wrench *const ghosts = ghosts_.data() + ghost_begin_[chunk], *const wrenches = slots.wrench.data();
+  double* const records = records_.data();
+  const std::size_t history = history_, stride = stride_, count = batch.count;
   const auto first = static_cast<Slot>(chunk * kChunk);
-  for (std::size_t k = 0; k < batch.count; ++k) {
-    const std::uint32_t at = w.pair[k];
-    const Pair pair = pairs_[at];
+  for (std::size_t k = 0; k < count; ++k) {
+    const Pair pair = pairs[w.pair[k]];
     const Vec3 force = w.acting[k] * batch.force[k];
     const Vec3 lever = cross(batch.normal[k], force);
-    Wrench& on_a = pair.a - first < kChunk ? slots.wrench[pair.a] : ghosts[pair.ghost];
-    Wrench& on_b = pair.b - first < kChunk ? slots.wrench[pair.b] : ghosts[pair.ghost];
+    Wrench& on_a = pair.a - first < kChunk ? wrenches[pair.a] : ghosts[pair.ghost];
+    Wrench& on_b = pair.b - first < kChunk ? wrenches[pair.b] : ghosts[pair.ghost];
     on_a.force -= force;
-    on_b.force += force;
     on_a.torque -= w.arm_a[k] * lever;
+    on_b.force += force;
     on_b.torque -= w.arm_b[k] * lever;
-    double* const record = records_.data() + stride_ * at;
-    for (std::size_t j = 0; j < history_; ++j) record[j] = batch.history[j][k];
-    double* const impulse = record + history_;
+    double* const record = records + stride * w.pair[k];
+    for (std::size_t j = 0; j < history; ++j) record[j] = batch.history[j][k];
+    double* const impulse = record + history;
     impulse[0] += time * force.x, impulse[1] += time * force.y, impulse[2] += time * force.z;
-    if (rolls_) {
-      const Vec3 torque = w.acting[k] * batch.torque[k];
-      on_a.torque -= torque;
-      on_b.torque += torque;
-      impulse[3] += time * torque.x, impulse[4] += time * torque.y, impulse[5] += time * torque.z;
-    }
-    if ((flags_[at] & kTouched) == 0) before_[at] = batch.velocity[k];
-    flags_[at] = static_cast<std::uint8_t>(kTouching | kTouched | (w.leaving[k] != 0.0 ? kLeaving : 0));
-    if (e.stage != Stage::last || batch.overlap[k] <= 0.0) continue;
-    w.tally.add(batch.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
+    if (!rolls_) continue;
+    const Vec3 torque = w.acting[k] * batch.torque[k];
+    on_a.torque -= torque;
+    on_b.torque += torque;
+    impulse[3] += time * torque.x, impulse[4] += time * torque.y, impulse[5] += time * torque.z;
+  }
+  note(e, w);
+}
+
+/// That they touch, since when, and, at the end of the step, by how much.
+void BallContacts::note(const Evaluation& e, Work& w) {
+  const ContactBatch& batch = w.batch;
+  std::uint8_t* const all_flags = flags_.data();
+  Vec3* const before = before_.data();
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    std::uint8_t& flags = all_flags[w.pair[k]];
+    if ((flags & kTouched) == 0) before[w.pair[k]] = batch.velocity[k];
+    flags = static_cast<std::uint8_t>(kTouching | kTouched | (w.leaving[k] != 0.0 ? kLeaving : 0));
+  }
+  for (std::size_t k = 0; e.stage == Stage::last && k < batch.count; ++k) {
+    if (batch.overlap[k] > 0.0) w.tally.add(batch.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
   }
 }
 
@@ -143,20 +171,20 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
   };
   const std::size_t end = chunk_begin_[chunk + 1];
   const Place* const place = slots.place.data();
+  const Moving* const moving = slots.moving.data();
+  const Pair* const pairs = pairs_.data();
+  const std::uint8_t* const flags = flags_.data();
+  const double reach = e.reach;
   for (std::size_t k = chunk_begin_[chunk]; k < end; ++k) {
-    if (k + kPrefetch < end) {
-      const Pair ahead = pairs_[k + kPrefetch];
-      __builtin_prefetch(&place[ahead.a]);
-      __builtin_prefetch(&place[ahead.b]);
-      __builtin_prefetch(&slots.moving[ahead.a]);
-      __builtin_prefetch(&slots.moving[ahead.b]);
-    }
-    const Pair pair = pairs_[k];
+    const std::size_t ahead = std::min(k + kPrefetch, end - 1);
+    __builtin_prefetch(&place[pairs[ahead].b]);
+    __builtin_prefetch(&moving[pairs[ahead].b]);
+    const Pair pair = pairs[k];
     const Place &a = place[pair.a], &b = place[pair.b];
     const Vec3 apart = b.position - a.position;
-    const double distance2 = squared_norm(apart), radii = a.radius + b.radius + e.reach;
+    const double distance2 = squared_norm(apart), radii = a.radius + b.radius + reach;
     const bool touch = distance2 < radii * radii;
-    if (!touch && (flags_[k] & kTouching) != 0) let_go(k);
+    if (!touch && (flags[k] & kTouching) != 0) let_go(k);
     // Written in any case, and kept where they touch: whether they do cannot be foreseen.
     const std::size_t lane = batch.count;
     w.pair[lane] = static_cast<std::uint32_t>(k);

@@ -72,6 +72,7 @@ class BallContacts {
   static void measure(const Evaluation& evaluation, Work& work);
   void gather(const Slots& slots, const Evaluation& evaluation, Work& work) const;
   static void combine(const Evaluation& evaluation, Work& work);
+  void note(const Evaluation& evaluation, Work& work);
   void scatter(Slots& slots, const Evaluation& evaluation, std::size_t chunk, Work& work);
 
   std::size_t history_ = 0, stride_ = 3;
