@@ -22,21 +22,28 @@ using Lanes3 = ContactBatch::Lanes3;
 /// Contacts on their way through the law.
 struct BallContacts::Work {
   ContactBatch batch;
-  std::array<std::uint32_t, kLanes> pair;  // of each contact
-  alignas(64) Lane distance2, radius_a, radius_b, arm_a, arm_b, inverse_mass, is_new, leaving, acting;
+  std::array<std::uint32_t, kLanes> pair;     // of each contact
+  std::array<std::uint32_t, 2 * kLanes> hit;  // pairs that touch, and wait for a full batch
+  std::size_t waiting = 0;
+  alignas(64) Lane radius_a, radius_b, arm_a, arm_b, inverse_mass, is_new, leaving, acting;
   Lanes3 apart, rim;  // rim: sum of arm times angular velocity [m/s]
   ContactTally tally;
 };
 
 /// Distances and normals, all contacts side by side.
-void BallContacts::measure(const Evaluation& e, Work& w) {
+void BallContacts::measure(const Slots& slots, const Evaluation& e, Work& w) const {
   ContactBatch& batch = w.batch;
+  const Place* const place = slots.place.data();
+  for (std::size_t k = 0; k < batch.count; ++k) {
+    const Place &a = place[pairs_[w.pair[k]].a], &b = place[pairs_[w.pair[k]].b];
+    w.apart.set(k, b.position - a.position);
+    w.radius_a[k] = a.radius, w.radius_b[k] = b.radius;
+  }
   const double sunk = e.at_contact_point ? 0.5 : 0.0;
   for (std::size_t k = 0; k < batch.count; ++k) {
-    const double distance = std::sqrt(w.distance2[k]), inverse = 1.0 / distance;
-    batch.normal.x[k] = inverse * w.apart.x[k];
-    batch.normal.y[k] = inverse * w.apart.y[k];
-    batch.normal.z[k] = inverse * w.apart.z[k];
+    const double x = w.apart.x[k], y = w.apart.y[k], z = w.apart.z[k];
+    const double distance = std::sqrt(x * x + y * y + z * z), inverse = 1.0 / distance;
+    batch.normal.x[k] = inverse * x, batch.normal.y[k] = inverse * y, batch.normal.z[k] = inverse * z;
     const double a = w.radius_a[k], b = w.radius_b[k], overlap = a + b - distance;
     batch.overlap[k] = overlap;
     batch.radius[k] = a * b / (a + b);
@@ -161,41 +168,51 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
   ContactBatch& batch = w.batch;
   batch.count = 0;
   batch.lead = 0.5 * e.h;
-  const auto flush = [&] {
-    measure(e, w);
-    gather(slots, e, w);
-    combine(e, w);
-    e.law->forces(batch);
-    scatter(slots, e, chunk, w);
-    batch.count = 0;
-  };
   const std::size_t end = chunk_begin_[chunk + 1];
+  for (std::size_t k = chunk_begin_[chunk]; k < end; k += kLanes) {
+    // Whether a pair touches cannot be foreseen: it is written down in any case, and counted when it does.
+    std::array<std::uint32_t, kLanes> gone;
+    const std::size_t parted = look_at(slots, e, k, std::min(k + kLanes, end), w, gone);
+    for (std::size_t g = 0; g < parted; ++g) let_go(gone[g]);
+    // As many as fit; the rest waits for the next ones.
+    while (w.waiting >= kLanes || (k + kLanes >= end && w.waiting > 0)) {
+      batch.count = std::min(w.waiting, kLanes);
+      for (std::size_t j = 0; j < batch.count; ++j) w.pair[j] = w.hit[j];
+      w.waiting -= batch.count;
+      for (std::size_t j = 0; j < w.waiting; ++j) w.hit[j] = w.hit[j + batch.count];
+      measure(slots, e, w);
+      gather(slots, e, w);
+      combine(e, w);
+      e.law->forces(batch);
+      scatter(slots, e, chunk, w);
+    }
+  }
+  return w.tally;
+}
+
+/// Adds the pairs of first .. last - 1 that touch to w.hit, and writes those that do no longer to `gone`; returns how many.
+std::size_t BallContacts::look_at(const Slots& slots, const Evaluation& e, std::size_t first, std::size_t last, Work& w,
+                                  std::array<std::uint32_t, kLanes>& gone) const {
   const Place* const place = slots.place.data();
   const Moving* const moving = slots.moving.data();
   const Pair* const pairs = pairs_.data();
   const std::uint8_t* const flags = flags_.data();
   const double reach = e.reach;
-  for (std::size_t k = chunk_begin_[chunk]; k < end; ++k) {
-    const std::size_t ahead = std::min(k + kPrefetch, end - 1);
-    __builtin_prefetch(&place[pairs[ahead].b]);
-    __builtin_prefetch(&moving[pairs[ahead].b]);
-    const Pair pair = pairs[k];
-    const Place &a = place[pair.a], &b = place[pair.b];
-    const Vec3 apart = b.position - a.position;
-    const double distance2 = squared_norm(apart), radii = a.radius + b.radius + reach;
-    const bool touch = distance2 < radii * radii;
-    if (!touch && (flags[k] & kTouching) != 0) let_go(k);
-    // Written in any case, and kept where they touch: whether they do cannot be foreseen.
-    const std::size_t lane = batch.count;
-    w.pair[lane] = static_cast<std::uint32_t>(k);
-    w.distance2[lane] = distance2;
-    w.apart.set(lane, apart);
-    w.radius_a[lane] = a.radius, w.radius_b[lane] = b.radius;
-    batch.count += touch ? 1 : 0;
-    if (batch.count == kLanes) flush();
+  const std::size_t end = pairs_.size() - 1;
+  std::size_t hits = w.waiting, parted = 0;
+  for (std::size_t k = first; k < last; ++k) {
+    const Slot soon = pairs[std::min(k + kPrefetch, end)].b;
+    __builtin_prefetch(&place[soon]);
+    __builtin_prefetch(&moving[soon]);
+    const Place &a = place[pairs[k].a], &b = place[pairs[k].b];
+    const double radii = a.radius + b.radius + reach;
+    const unsigned touch = squared_norm(b.position - a.position) < radii * radii ? 1 : 0;
+    w.hit[hits] = gone[parted] = static_cast<std::uint32_t>(k);
+    hits += touch;
+    parted += (1 - touch) & (flags[k] & kTouching);
   }
-  if (batch.count > 0) flush();
-  return w.tally;
+  w.waiting = hits;
+  return parted;
 }
 
 ContactTally BallContacts::evaluate(Slots& slots, const Evaluation& e, const Executor& executor) {

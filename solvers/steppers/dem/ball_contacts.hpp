@@ -5,6 +5,7 @@
 // What a contact keeps lies beside its pair, so that a sub-step looks nothing up.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -69,7 +70,9 @@ class BallContacts {
                   std::span<const std::uint8_t> flags, std::span<const Vec3> before);
   ContactTally evaluate_chunk(Slots& slots, const Evaluation& evaluation, std::size_t chunk);
   void let_go(std::size_t pair);
-  static void measure(const Evaluation& evaluation, Work& work);
+  std::size_t look_at(const Slots& slots, const Evaluation& evaluation, std::size_t first, std::size_t last, Work& work,
+                      std::array<std::uint32_t, ContactBatch::kMost>& gone) const;
+  void measure(const Slots& slots, const Evaluation& evaluation, Work& work) const;
   void gather(const Slots& slots, const Evaluation& evaluation, Work& work) const;
   static void combine(const Evaluation& evaluation, Work& work);
   void note(const Evaluation& evaluation, Work& work);
