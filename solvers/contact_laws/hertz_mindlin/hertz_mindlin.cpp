@@ -84,10 +84,11 @@ double HertzMindlin::stable_step(const ContactScale& contact) const {
   const double kn = 2.0 * e * a, kt = 8.0 * pairs_.shear[pair] * a, zeta = kDashpot * pairs_.ratio[pair];
   const double rate = std::sqrt(kn / m), turning = rate * rolling_.rate(pair, r);
   step = std::min(step, kImpact / 20.0 / rate);
-  step = std::min(step, 0.5 * granular::longest_stable_step(m, kn, zeta * std::sqrt(kn * m)));
-  step = std::min(step, 0.5 * granular::longest_stable_step(granular::kTangentMass * m, kt,
-                                                            tangential_damping_ * zeta * std::sqrt(kt * m)));
-  return turning > 0.0 ? std::min(step, 1.0 / turning) : step;
+  step = std::min(step, granular::kPartOfStable * granular::longest_stable_step(m, kn, zeta * std::sqrt(kn * m)));
+  step = std::min(
+      step, granular::kPartOfStable * granular::longest_stable_step(granular::kTangentMass * m, kt,
+                                                                    tangential_damping_ * zeta * std::sqrt(kt * m)));
+  return turning > 0.0 ? std::min(step, 2.0 * granular::kPartOfStable / turning) : step;
 }
 
 // What follows from the circle of contact and from lanes.normal, the elastic force.

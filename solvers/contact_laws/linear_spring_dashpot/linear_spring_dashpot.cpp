@@ -63,8 +63,8 @@ double LinearSpringDashpot::stable_step(const ContactScale& contact) const {
   const double across = granular::longest_stable_step(contact.mass, k, c);
   const double along =
       granular::longest_stable_step(granular::kTangentMass * contact.mass, stiffness_ratio_ * k, damping_ratio_ * c);
-  const double turning = rate * rolling_.rate(pair, contact.radius), half_roll = turning > 0.0 ? 1.0 / turning : time;
-  return std::min({time / 20.0, 0.5 * across, 0.5 * along, half_roll});
+  const double turning = rate * rolling_.rate(pair, contact.radius), roll = turning > 0.0 ? 2.0 / turning : time;
+  return std::min({time / 20.0, granular::kPartOfStable * std::min({across, along, roll})});
 }
 
 // Normal force without cohesion, and what friction needs.

@@ -42,8 +42,11 @@ void BallContacts::measure(const Slots& slots, const Evaluation& e, Work& w) con
   const double sunk = e.at_contact_point ? 0.5 : 0.0;
   for (std::size_t k = 0; k < batch.count; ++k) {
     const double x = w.apart.x[k], y = w.apart.y[k], z = w.apart.z[k];
-    const double distance = std::sqrt(x * x + y * y + z * z), inverse = 1.0 / distance;
-    batch.normal.x[k] = inverse * x, batch.normal.y[k] = inverse * y, batch.normal.z[k] = inverse * z;
+    const double distance = std::sqrt(x * x + y * y + z * z);
+    // Of two balls with one centre any normal will do.
+    const double inverse = distance > 0.0 ? 1.0 / distance : 0.0;
+    batch.normal.x[k] = inverse * x, batch.normal.y[k] = inverse * y;
+    batch.normal.z[k] = distance > 0.0 ? inverse * z : 1.0;
     const double a = w.radius_a[k], b = w.radius_b[k], overlap = a + b - distance;
     batch.overlap[k] = overlap;
     batch.radius[k] = a * b / (a + b);
@@ -148,6 +151,9 @@ void BallContacts::note(const Evaluation& e, Work& w) {
     if ((flags & kTouched) == 0) before[w.pair[k]] = batch.velocity[k];
     flags = static_cast<std::uint8_t>(kTouching | kTouched | (w.leaving[k] != 0.0 ? kLeaving : 0));
   }
+  double greatest = w.tally.greatest_overlap;
+  for (std::size_t k = 0; k < batch.count; ++k) greatest = std::max(greatest, batch.overlap[k]);
+  w.tally.greatest_overlap = greatest;
   for (std::size_t k = 0; e.stage == Stage::last && k < batch.count; ++k) {
     if (batch.overlap[k] > 0.0) w.tally.add(batch.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
   }

@@ -42,6 +42,7 @@ class BallContacts {
   void report(const Slots& slots, ContactRecords& out) const;
 
   [[nodiscard]] std::size_t history_size() const { return history_; }
+  [[nodiscard]] bool rolls() const { return rolls_; }
   /// Bytes of list and histories.
   [[nodiscard]] std::size_t memory() const;
   [[nodiscard]] std::size_t pairs() const { return pairs_.size(); }

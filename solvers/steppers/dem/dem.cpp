@@ -21,6 +21,12 @@ constexpr std::size_t kGrain = 4096;
 constexpr std::uint64_t kStepsBetweenSorts = 100;
 /// Part of the smallest radius: of a bed at rest as cheap as a smaller one, of grains in motion found to be near the best.
 constexpr double kSkin = 0.2;
+/// Mean overlap over the radius at which a law is too soft to mean anything.
+constexpr double kDeep = 0.05;
+
+double summary_mean(const dem::ContactTally& tally) {
+  return tally.closed > 0 ? tally.relative_overlap / static_cast<double>(tally.closed) : 0.0;
+}
 
 }  // namespace
 
@@ -64,7 +70,10 @@ StepSummary Dem::step(StepServices& services, const BodyState& bodies, double ti
   for (std::size_t k = 0; k <= sub_steps_; ++k) {
     const dem::Stage stage = k == 0 ? dem::Stage::first : k == sub_steps_ ? dem::Stage::last : dem::Stage::middle;
     if (k == 0 || !steady) ask_fields(call, time + static_cast<double>(k) * h_);
+    const double greatest = tally.greatest_overlap;
     tally = ask_contacts(call, stage);
+    tally.greatest_overlap = std::max(tally.greatest_overlap, greatest);
+    work.boundary_work += tally.belt_work;
     const bool drifts = stage != dem::Stage::last;
     if (drifts && !joints_.empty()) joints_.before(slots_, bodies);
     const dem::Motions moved = verlet_.advance(slots_, h_, stage, services.executor());
@@ -95,9 +104,21 @@ void Dem::take_over(const Call& call) {
   }
   joints_.begin_step(call.services.machine(), bodies);
   slots_.load(bodies, scene_->shapes(), joints_.bodies(), call.services.executor());
+  refuse_moving_surfaces_of_balls(bodies);
   balls_.begin_step();
   shapes_.begin_step(bodies);
   if (!list_is_good_) find_neighbours(call);
+}
+
+/// Contacts of two balls do not know of surfaces that move against their bodies.
+void Dem::refuse_moving_surfaces_of_balls(const BodyView& bodies) const {
+  for (BodyIndex i = 0; i < bodies.surface_motion.size(); ++i) {
+    if (slots_.place[slots_.slot_of[i]].radius == 0.0 || bodies.surface_motion[i] == Twist{}) continue;
+    throw Error{ErrorKind::usage,
+                "time_stepper:dem: body " + std::to_string(bodies.id[i]) +
+                    " is a ball whose surface moves against it, which dem does not know; give it another "
+                    "shape, such as a capsule, or turn the body itself"};
+  }
 }
 
 /// Tells what is kept of contacts which bodies are still there.
@@ -111,37 +132,54 @@ void Dem::follow_bodies(const BodyView& bodies) {
   ids_.assign(bodies.id.begin(), bodies.id.end());
 }
 
-double Dem::stable_step(const Call& call) const {
+/// What the bodies of a material ask of a time step.
+struct Dem::Extremes {
+  double mass = std::numeric_limits<double>::infinity();             // smallest of those that move [kg]
+  double radius = std::numeric_limits<double>::infinity();           // the same [m]
+  double standing_radius = std::numeric_limits<double>::infinity();  // of balls that do not move by forces [m]
+  double speed = 0.0;                                                // greatest of a surface [m/s]
+  bool moves = false, stands = false;
+};
+
+std::vector<Dem::Extremes> Dem::extremes(const Call& call) const {
   const BodyView& bodies = call.bodies.view;
-  struct Extremes {
-    double mass = std::numeric_limits<double>::infinity(), radius = mass, speed = 0.0;
-    bool moves = false, stands = false;
-  };
-  const std::size_t materials = call.services.materials().size();
-  std::vector<Extremes> of(materials);
+  std::vector<Extremes> of(call.services.materials().size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Extremes& e = of[bodies.material[i]];
-    e.speed = std::max(e.speed, norm(bodies.velocity[i]));
-    if (bodies.motion[i] != Motion::dynamic) {
+    const double ball = slots_.place[slots_.slot_of[i]].radius;
+    e.speed = std::max(e.speed, norm(bodies.velocity[i]) + ball * norm(bodies.angular_velocity[i]));
+    if (bodies.motion[i] == Motion::dynamic) {
+      e.moves = true;
+      e.mass = std::min(e.mass, bodies.mass[i]);
+      e.radius = std::min(e.radius, bodies.radius[i]);
+    } else {
       e.stands = true;
-      continue;
+      if (ball > 0.0) e.standing_radius = std::min(e.standing_radius, ball);
     }
-    e.moves = true;
-    e.mass = std::min(e.mass, bodies.mass[i]);
-    e.radius = std::min(e.radius, bodies.radius[i]);
   }
+  for (std::size_t k = 0; k < slots_.turning.size(); ++k) {
+    const BodyIndex i = slots_.body[slots_.turning[k].slot];
+    Extremes& e = of[bodies.material[i]];
+    e.speed = std::max(e.speed, norm(bodies.velocity[i]) + slots_.reach[k] * norm(bodies.angular_velocity[i]));
+  }
+  return of;
+}
+
+double Dem::stable_step(const Call& call) const {
+  const std::vector<Extremes> of = extremes(call);
+  // Several points of one pair share its mass; see ShapeContacts.
+  const double share = 1.0 / static_cast<double>(shapes_.most_points());
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t a = 0; a < materials; ++a) {
+  for (std::uint32_t a = 0; a < of.size(); ++a) {
     if (!of[a].moves) continue;
-    for (std::uint32_t b = 0; b < materials; ++b) {
+    for (std::uint32_t b = 0; b < of.size(); ++b) {
       const auto ask = [&](double mass, double radius) {
-        least = std::min(least, call.law.stable_step({a, b, mass, radius, of[a].speed + of[b].speed}));
+        least = std::min(least, call.law.stable_step({a, b, share * mass, radius, of[a].speed + of[b].speed}));
       };
       if (of[b].moves) {
-        ask(of[a].mass * of[b].mass / (of[a].mass + of[b].mass),
-            of[a].radius * of[b].radius / (of[a].radius + of[b].radius));
+        ask(1.0 / (1.0 / of[a].mass + 1.0 / of[b].mass), 1.0 / (1.0 / of[a].radius + 1.0 / of[b].radius));
       }
-      if (of[b].stands) ask(of[a].mass, of[a].radius);
+      if (of[b].stands) ask(of[a].mass, 1.0 / (1.0 / of[a].radius + 1.0 / of[b].standing_radius));
     }
   }
   return least;
@@ -149,7 +187,8 @@ double Dem::stable_step(const Call& call) const {
 
 void Dem::choose_sub_step(const Call& call) {
   const double stable = stable_step(call), asked = options_.sub_step;
-  if (asked > stable * (1.0 + 1e-9) && !options_.force_step) {
+  // Later, when bodies are faster or smaller than those of the first step, the step is made as short as it has to be.
+  if (asked > stable * (1.0 + 1e-9) && !options_.force_step && last_h_ == 0.0) {
     char text[200];
     std::snprintf(
         text, sizeof text,
@@ -159,7 +198,8 @@ void Dem::choose_sub_step(const Call& call) {
     if (scene_options_.names().empty()) throw Error{ErrorKind::usage, std::string{"dem: sub_step "} + text};
     throw scene_options_.error("sub_step", text);
   }
-  const double longest = std::min(asked > 0.0 ? asked : stable, call.dt);
+  const double wanted = asked > 0.0 && (options_.force_step || asked < stable) ? asked : stable;
+  const double longest = std::min(wanted, call.dt);
   sub_steps_ = static_cast<std::size_t>(std::max(1.0, std::ceil(call.dt / longest - 1e-9)));
   h_ = call.dt / static_cast<double>(sub_steps_);
   if (told_ || !std::isfinite(stable)) return;
@@ -173,12 +213,14 @@ void Dem::choose_sub_step(const Call& call) {
 
 void Dem::find_neighbours(const Call& call) {
   const BodyView& bodies = call.bodies.view;
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies.motion[i] == Motion::dynamic) least = std::min(least, bodies.radius[i]);
+    if (bodies.motion[i] != Motion::dynamic) continue;
+    least = std::min(least, bodies.radius[i]);
+    most = std::max(most, bodies.radius[i]);
   }
   skin_ = options_.skin > 0.0 ? options_.skin : std::isfinite(least) ? kSkin * least : 0.0;
-  reach_ = std::isfinite(least) ? call.law.reach(0.5 * *std::ranges::max_element(bodies.radius)) : 0.0;
+  reach_ = call.law.reach(most);  // against a wall the effective radius is a body's own
   const NeighbourView found = call.services.neighbours(bodies, skin_ + reach_);
   listed_.assign(found.others.begin(), found.others.end());
   balls_.set_neighbours(slots_, found.balls);
@@ -228,7 +270,7 @@ dem::ContactTally Dem::ask_contacts(const Call& call, dem::Stage stage) {
 /// Two bodies that went half a skin each may meet.
 void Dem::watch_drift(const Call& call, double way) {
   used_ += way;
-  if (2.0 * used_ <= skin_ || !std::isfinite(used_)) return;
+  if (2.0 * used_ <= skin_) return;  // a NaN is no reason to rest
   slots_.store_poses(call.bodies, {});
   find_neighbours(call);
 }
@@ -244,10 +286,20 @@ void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const d
   } else {
     records_.merge(ball_records_, shape_records_);
   }
+  if (summary_mean(tally) > kDeep && !warned_) {
+    warned_ = true;
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "warning: time_stepper:dem: contacts overlap by %.0f %% of the smaller radius on average at t = %.4g s; take a "
+        "stiffer contact law",
+        100.0 * summary_mean(tally), call.time + call.dt);
+    scene_->log(text);
+  }
   summary.solve.status = SolveStatus::converged;
   summary.solve.iterations = static_cast<int>(sub_steps_);
   summary.contacts = tally.closed;
-  summary.mean_penetration = tally.closed > 0 ? tally.relative_overlap / static_cast<double>(tally.closed) : 0.0;
+  summary.mean_penetration = summary_mean(tally);
   summary.max_penetration = tally.greatest_overlap;
   summary.work = {.contact_loss = work.boundary_work - work.contact_work,
                   .boundary_work = work.boundary_work,
@@ -263,6 +315,8 @@ void Dem::save(StateWriter& out) const {
   out.write("sub_step", last_h_);
   const std::size_t history = balls_.history_size();
   out.write("history_size", std::uint64_t{history});
+  out.write("rolls", std::uint64_t{balls_.rolls() ? 1U : 0U});
+  out.write("most_points", std::uint64_t{shapes_.most_points()});
   balls_.save(out, ids_);
   shapes_.save(out, history);
 }
@@ -278,7 +332,8 @@ void Dem::load(const StateReader& in) {
   steps_since_sort_ = in.integer("steps_since_sort");
   last_h_ = in.number("sub_step");
   const auto history = static_cast<std::size_t>(in.integer("history_size"));
-  balls_.set_layout(history, false);
+  balls_.set_layout(history, in.integer("rolls") != 0);
+  shapes_.set_most_points(static_cast<std::size_t>(in.integer("most_points")));
   balls_.load(in, ids_);
   shapes_.load(in, history);
   list_is_good_ = false;

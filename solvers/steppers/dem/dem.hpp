@@ -56,7 +56,11 @@ class Dem final : public TimeStepper {
 
   void take_over(const Call& call);
   void choose_sub_step(const Call& call);
+  struct Extremes;
+
+  [[nodiscard]] std::vector<Extremes> extremes(const Call& call) const;
   [[nodiscard]] double stable_step(const Call& call) const;
+  void refuse_moving_surfaces_of_balls(const BodyView& bodies) const;
   void follow_bodies(const BodyView& bodies);
   void find_neighbours(const Call& call);
   void ask_fields(const Call& call, double time);
@@ -67,7 +71,8 @@ class Dem final : public TimeStepper {
   DemOptions options_;
   Options scene_options_;  ///< for the place of a message
   SceneServices* scene_ = nullptr;
-  bool told_ = false;  ///< the log knows the sub-step
+  bool told_ = false;    ///< the log knows the sub-step
+  bool warned_ = false;  ///< of overlaps
 
   dem::Slots slots_;
   dem::Verlet verlet_;

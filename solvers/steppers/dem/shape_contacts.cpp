@@ -35,6 +35,7 @@ struct ShapeContacts::Work {
   std::array<bool, kLanes> leaving;
   std::array<Arms, kLanes> arms;
   std::array<double, kLanes> smaller;
+  std::array<Vec3, kLanes> slip;
   ContactTally tally;
 };
 
@@ -150,14 +151,34 @@ ShapeContacts::Arms ShapeContacts::arms(const Slots& slots, const Contact& c, bo
           c.point - sunk - slots.place[slots.slot_of[c.b]].position};
 }
 
+/// What surfaces that move against their bodies add to the velocity of b's surface relative to a's [m/s]. A belt moves in its own
+/// plane and does not push.
+Vec3 ShapeContacts::belt_slip(const BodyView& bodies, const Contact& c, const Arms& arms) {
+  if (bodies.surface_motion.empty()) return {};
+  const Twist a = surface_motion(bodies, c.a), b = surface_motion(bodies, c.b);
+  const Vec3 slip = b.linear + cross(b.angular, arms.b) - a.linear - cross(a.angular, arms.a);
+  return slip - dot(slip, c.normal) * c.normal;
+}
+
 Vec3 ShapeContacts::surface_velocity(const Slots& slots, const BodyView& bodies, const Contact& c, const Arms& arms) {
   const Moving &a = slots.moving[slots.slot_of[c.a]], &b = slots.moving[slots.slot_of[c.b]];
-  Vec3 v = b.linear + cross(b.angular, arms.b) - a.linear - cross(a.angular, arms.a);
-  if (bodies.surface_motion.empty()) return v;
-  const Twist belt_a = surface_motion(bodies, c.a), belt_b = surface_motion(bodies, c.b);
-  const Vec3 slip = belt_b.linear + cross(belt_b.angular, arms.b) - belt_a.linear - cross(belt_a.angular, arms.a);
-  // A belt moves in its own plane and does not push.
-  return v + (slip - dot(slip, c.normal) * c.normal);
+  return b.linear + cross(b.angular, arms.b) - a.linear - cross(a.angular, arms.a) + belt_slip(bodies, c, arms);
+}
+
+/// Active contacts are in order of bodies: those of a pair lie together.
+void ShapeContacts::share_mass(const Slots& slots) {
+  share_.resize(active_.size());
+  for (std::size_t first = 0; first < active_.size();) {
+    const Contact& c = entries_[active_[first]].contact;
+    std::size_t last = first + 1;
+    const auto same = [&](const Contact& o) { return o.a == c.a && o.b == c.b; };
+    while (last < active_.size() && same(entries_[active_[last]].contact)) ++last;
+    const bool ball = slots.place[slots.slot_of[c.a]].radius > 0.0 || slots.place[slots.slot_of[c.b]].radius > 0.0;
+    most_points_ = std::max(most_points_, ball ? last - first : std::max<std::size_t>(4, last - first));
+    std::fill(share_.begin() + static_cast<std::ptrdiff_t>(first), share_.begin() + static_cast<std::ptrdiff_t>(last),
+              1.0 / static_cast<double>(last - first));
+    first = last;
+  }
 }
 
 void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Evaluation& e, Work& w) const {
@@ -174,7 +195,7 @@ void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Eva
     const double ra = radius_of(slots, bodies, c.a), rb = radius_of(slots, bodies, c.b);
     batch.overlap[k] = overlap;
     batch.radius[k] = 1.0 / (1.0 / ra + 1.0 / rb);
-    batch.mass[k] = 1.0 / (a.inverse_mass + b.inverse_mass);
+    batch.mass[k] = share_[w.first + k] / (a.inverse_mass + b.inverse_mass);
     batch.normal.set(k, c.normal);
     batch.velocity.set(k, v);
     batch.spin.set(k, b.angular - a.angular);
@@ -184,6 +205,7 @@ void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Eva
     w.acting[k] = acting.part;
     w.leaving[k] = acting.leaving != 0.0;
     for (std::size_t j = 0; j < e.history; ++j) batch.history[j][k] = entry.history[j];
+    w.slip[k] = belt_slip(bodies, c, w.arms[k]);
     w.smaller[k] = std::min(a.is_dynamic() ? bodies.radius[c.a] : std::numeric_limits<double>::infinity(),
                             b.is_dynamic() ? bodies.radius[c.b] : std::numeric_limits<double>::infinity());
   }
@@ -202,6 +224,8 @@ void ShapeContacts::scatter(const Evaluation& e, Work& w) {
     entry.impulse += time * force;
     entry.moment += time * torque;
     for (std::size_t j = 0; j < e.history; ++j) entry.history[j] = w.batch.history[j][k];
+    w.tally.belt_work -= time * dot(force, w.slip[k]);
+    w.tally.greatest_overlap = std::max(w.tally.greatest_overlap, w.batch.overlap[k]);
     if (e.stage == Stage::last && w.batch.overlap[k] > 0.0) w.tally.add(w.batch.overlap[k], w.smaller[k]);
   }
 }
@@ -210,6 +234,7 @@ ContactTally ShapeContacts::evaluate(Slots& slots, const BodyView& bodies, std::
                                      const Evaluation& e, const Executor& executor) {
   if (found.empty() && entries_.empty()) return {};
   match(bodies, found);
+  share_mass(slots);
   on_a_.resize(active_.size()), on_b_.resize(active_.size());
   tally_.assign(Executor::chunk_count(active_.size(), kLanes), ContactTally{});
   executor.for_chunks(active_.size(), kLanes, [&](std::size_t first, std::size_t last) {

@@ -28,6 +28,10 @@ class ShapeContacts {
   /// Appends the contacts that touched in this outer step, in order.
   void report(const Slots& slots, const BodyView& bodies, bool rolls, ContactRecords& out) const;
 
+  /// Greatest number of points that a pair of bodies has had at once, at least 4 where bodies are no balls: they share the mass
+  /// of the pair, so that a box with four points bounces as a ball does.
+  [[nodiscard]] std::size_t most_points() const { return most_points_; }
+  void set_most_points(std::size_t points) { most_points_ = points; }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   void save(StateWriter& out, std::size_t history) const;
   void load(const StateReader& in, std::size_t history);
@@ -54,14 +58,18 @@ class ShapeContacts {
   bool is_as_before(const BodyView& bodies, std::span<const Contact> found);
   void match(const BodyView& bodies, std::span<const Contact> found);
   void inherit(std::size_t first, std::size_t last);
+  void share_mass(const Slots& slots);
+  static Vec3 belt_slip(const BodyView& bodies, const Contact& contact, const Arms& arms);
   static Arms arms(const Slots& slots, const Contact& contact, bool at_contact_point);
   static Vec3 surface_velocity(const Slots& slots, const BodyView& bodies, const Contact& contact, const Arms& arms);
   void gather(const Slots& slots, const BodyView& bodies, const Evaluation& evaluation, Work& work) const;
   void scatter(const Evaluation& evaluation, Work& work);
 
   std::vector<Entry> entries_, merged_;  // by key
-  std::vector<std::uint32_t> active_;    // entries that touch now
-  std::vector<Wrench> on_a_, on_b_;      // by active contact
+  std::size_t most_points_ = 1;
+  std::vector<double> share_;          // of the pair's mass, by active contact [1]
+  std::vector<std::uint32_t> active_;  // entries that touch now
+  std::vector<Wrench> on_a_, on_b_;    // by active contact
   std::vector<ContactTally> tally_;
 };
 

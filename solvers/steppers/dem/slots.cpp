@@ -97,7 +97,15 @@ void Slots::load(const BodyView& bodies, const ShapeSet& shapes, std::span<const
     }
     inverse_moment[k] = 0.0;
     turning.push_back(t);
-    reach.push_back(shapes.shapes()[bodies.shape[i]].bounding_radius);
+    double farthest = shapes.shapes()[bodies.shape[i]].bounding_radius;
+    if (!std::isfinite(farthest)) {  // a plane: what it can move against counts
+      farthest = 0.0;
+      for (std::size_t other = 0; other < n; ++other) {
+        if (!moving[other].is_dynamic()) continue;
+        farthest = std::max(farthest, norm(place[other].position - place[k].position));
+      }
+    }
+    reach.push_back(farthest);
   }
 }
 

@@ -50,7 +50,9 @@ void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
     const Vec3 a = body.inverse_mass * (contact.force + force);
     const Vec3 alpha = slots.inverse_moment[k] * (contact.torque + torque);
     const Vec3 v = body.linear + correct * (a - old.linear), w = body.angular + correct * (alpha - old.angular);
-    const Vec3 mean = v + work.shift * a, mean_spin = w + work.shift * alpha;
+    const Vec3 mean = v + work.shift * a;
+    // Of bodies of `turning`, turn_chunk() counts it.
+    const Vec3 mean_spin = slots.inverse_moment[k] > 0.0 ? w + work.shift * alpha : Vec3{};
     out.contact_work += work.impulse_time * (dot(contact.force, mean) + dot(contact.torque, mean_spin));
     out.force_work += work.impulse_time * (dot(force, mean) + dot(torque, mean_spin));
     place.position += ahead * (v + (0.5 * ahead) * a);
@@ -62,9 +64,10 @@ void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
   out.fastest = std::max(out.fastest, std::sqrt(fastest2));
 }
 
-// After move_chunk(), which left alone the angular part of these bodies but for their work, which it counted with the angular
-// velocity predicted.
+// After move_chunk(), which left alone the angular part of these bodies. Kicks do work at one orientation, impulse times the mean
+// of the angular velocities before and after; the drift between them keeps the energy to the third order in the step.
 void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, std::size_t last, Motions& out) const {
+  const KickWork work = kick_work(h, stage);
   const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
   for (std::size_t k = first; k < last; ++k) {
     Turning& t = slots.turning[k];
@@ -74,6 +77,9 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
       const Vec3 torque =
           slots.wrench[t.slot].torque + (slots.field_torque.empty() ? Vec3{} : slots.field_torque[t.slot]);
       t.momentum += correct * (torque - t.torque);
+      const Vec3 mean_spin = angular_velocity(q, t.inverse_inertia, t.momentum + work.shift * torque);
+      out.contact_work += work.impulse_time * dot(slots.wrench[t.slot].torque, mean_spin);
+      out.force_work += work.impulse_time * dot(torque - slots.wrench[t.slot].torque, mean_spin);
       const Vec3 half = t.momentum + (0.5 * ahead) * torque;
       if (ahead > 0.0) {
         const Vec3 w = angular_velocity(q, t.inverse_inertia, half);
