@@ -24,7 +24,7 @@ constexpr double kSkin = 0.2;
 /// Mean overlap over the radius at which a law is too soft to mean anything.
 constexpr double kDeep = 0.05;
 
-double summary_mean(const dem::ContactTally& tally) {
+double mean_overlap(const dem::ContactTally& tally) {
   return tally.closed > 0 ? tally.relative_overlap / static_cast<double>(tally.closed) : 0.0;
 }
 
@@ -286,20 +286,20 @@ void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const d
   } else {
     records_.merge(ball_records_, shape_records_);
   }
-  if (summary_mean(tally) > kDeep && !warned_) {
+  if (mean_overlap(tally) > kDeep && !warned_) {
     warned_ = true;
     char text[200];
     std::snprintf(
         text, sizeof text,
         "warning: time_stepper:dem: contacts overlap by %.0f %% of the smaller radius on average at t = %.4g s; take a "
         "stiffer contact law",
-        100.0 * summary_mean(tally), call.time + call.dt);
+        100.0 * mean_overlap(tally), call.time + call.dt);
     scene_->log(text);
   }
   summary.solve.status = SolveStatus::converged;
   summary.solve.iterations = static_cast<int>(sub_steps_);
   summary.contacts = tally.closed;
-  summary.mean_penetration = summary_mean(tally);
+  summary.mean_penetration = mean_overlap(tally);
   summary.max_penetration = tally.greatest_overlap;
   summary.work = {.contact_loss = work.boundary_work - work.contact_work,
                   .boundary_work = work.boundary_work,

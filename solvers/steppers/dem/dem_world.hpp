@@ -22,6 +22,7 @@ namespace scree::test {
 class SpringLaw final : public ContactLaw {
  public:
   [[nodiscard]] std::size_t history_size() const override { return 3; }
+  [[nodiscard]] bool resists_rolling() const override { return rolling > 0.0; }
   [[nodiscard]] double stable_step(const ContactScale& contact) const override {
     return 0.05 * 3.14 * std::sqrt(contact.mass / stiffness);
   }
@@ -38,12 +39,14 @@ class SpringLaw final : public ContactLaw {
       spring += batch.lead * vt;
       batch.history[0][k] = spring.x, batch.history[1][k] = spring.y, batch.history[2][k] = spring.z;
       batch.force.set(k, push * n + tangent);
+      batch.torque.set(k, -rolling * batch.spin[k]);
     }
   }
 
   double stiffness = 1e4;  ///< [N/m]
   double damping = 0.0;    ///< [N s/m]
   double friction = 0.0;
+  double rolling = 0.0;  ///< moment against relative spin [N m s]
 };
 
 /// Body 0 is the half space below its position, the others are balls of their radius, or bodies that touch nothing.
