@@ -62,7 +62,9 @@ class BallContacts {
     Slot slot = 0;
     std::uint32_t ghost = 0;
   };
-  enum Flag : std::uint8_t { kTouching = 1, kTouched = 2, kLeaving = 4 };
+  static constexpr unsigned kTouching = 1;  // flags: at the last evaluation,
+  static constexpr unsigned kTouched = 2;   // at some time in this outer step,
+  static constexpr unsigned kLeaving = 4;   // and Acting::leaving
   struct Work;
 
   void order_pairs(const Slots& slots);

@@ -168,8 +168,8 @@ struct DemWorld {
     std::mt19937_64 random{7};
     std::uniform_real_distribution<double> any{-1.0, 1.0};
     for (int k = 0; k < side * side * side; ++k) {
-      const Vec3 cell{static_cast<double>(k % side), static_cast<double>(k / side % side),
-                      static_cast<double>(k / side / side)};
+      const int layer = k / side, top = layer / side;
+      const Vec3 cell{static_cast<double>(k % side), static_cast<double>(layer % side), static_cast<double>(top)};
       const Vec3 shift{any(random), any(random), any(random)}, v{any(random), any(random), any(random)};
       add_ball(0.0097 * cell + 0.0003 * shift, 0.005, speed * v);
     }
