@@ -1,10 +1,10 @@
-"""Writes blade.obj: a plate of 38 x 16 x 3 mm along x, tilted by 45 degrees so that its lower edge leads about +z, lengths in m."""
+"""Writes blade.obj: a plate of 33 x 16 x 3 mm along x, tilted by 45 degrees so that its lower edge leads about +z, lengths in m."""
 
 import math
 import pathlib
 
 TILT = math.radians(45)
-REACH, HALF_HEIGHT, HALF_THICKNESS = 0.0378, 0.008, 0.0015
+REACH, HALF_HEIGHT, HALF_THICKNESS = 0.033, 0.008, 0.0015
 SQUARES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
 
 rows = [f"# {__doc__.split(': ')[1]}"]
