@@ -12,9 +12,7 @@
 #include <map>
 
 #include "bed.hpp"
-#include "scree/config/validate.hpp"
-#include "scree/host/plugin_host.hpp"
-#include "scree/interfaces/ccp_solver.hpp"
+#include "methods.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree::bench {
@@ -24,15 +22,6 @@ const BedProblem& bed_problem() {
   static const char* const file = std::getenv("SCREE_BED");
   static const BedProblem problem{file != nullptr ? read_bed(file) : synthetic_bed(64000)};
   return problem;
-}
-
-PluginHost& host() {
-  static PluginHost plugins;
-  if (plugins.entries().empty()) {
-    const char* const folder = std::getenv("SCREE_PLUGIN_PATH");
-    plugins.search(folder != nullptr ? folder : SCREE_BENCH_PLUGINS);
-  }
-  return plugins;
 }
 
 // Bytes that an iteration must move: the contact's minimal fields once, impulses read and written, velocities once.
@@ -60,9 +49,7 @@ double copy_bandwidth() {
 }
 
 void iterations(benchmark::State& state, const std::string& plugin, const std::string& toml, int threads) {
-  const PluginEntry& entry = host().entry("ccp_solver", plugin, {});
-  const std::unique_ptr<Plugin> made = entry.make(options_from_text(toml, entry.parameters));
-  auto& solver = dynamic_cast<CcpSolver&>(*made);
+  const std::unique_ptr<CcpSolver> solver = make_solver(plugin, toml);
   const CcpProblem problem = bed_problem().problem();
   const Executor executor{threads};
   SolveContext context;
@@ -73,7 +60,7 @@ void iterations(benchmark::State& state, const std::string& plugin, const std::s
   SolveSummary summary;
   for (auto _ : state) {
     std::fill(gamma.begin(), gamma.end(), 0.0);
-    summary = solver.solve(problem, context, gamma);
+    summary = solver->solve(problem, context, gamma);
   }
   const double each = static_cast<double>(problem.contacts.size()) * 100.0;
   using benchmark::Counter;
@@ -87,9 +74,7 @@ void iterations(benchmark::State& state, const std::string& plugin, const std::s
 
 // Iterations and time until the residual is reached, from zero.
 void cold_solve(benchmark::State& state, const std::string& plugin, const std::string& toml, double tolerance) {
-  const PluginEntry& entry = host().entry("ccp_solver", plugin, {});
-  const std::unique_ptr<Plugin> made = entry.make(options_from_text(toml, entry.parameters));
-  auto& solver = dynamic_cast<CcpSolver&>(*made);
+  const std::unique_ptr<CcpSolver> solver = make_solver(plugin, toml);
   const CcpProblem problem = bed_problem().problem();
   SolveContext context;
   context.tolerance = tolerance;
@@ -98,7 +83,7 @@ void cold_solve(benchmark::State& state, const std::string& plugin, const std::s
   SolveSummary summary;
   for (auto _ : state) {
     std::fill(gamma.begin(), gamma.end(), 0.0);
-    summary = solver.solve(problem, context, gamma);
+    summary = solver->solve(problem, context, gamma);
   }
   state.counters["iterations"] = summary.iterations;
   state.counters["residual"] = summary.residual;

@@ -1,5 +1,14 @@
-"""Contact problems of a rotating drum that holds the grains of a bed. Standard library only."""
+#!/usr/bin/env python3
+"""Contact problems of a rotating drum that holds the grains of a bed.
 
+    bench/ccp/drum_problems.py PROGRAM FOLDER BED 78,79,80 [--slower 10]
+
+Fills the drum, turns it for a while, and records the problems of these steps of 1 ms into FOLDER/recorded, each with the impulses of the
+step before it; or, with --slower, into FOLDER/slower, after the drum has been slowed to a part of its speed: let it calm down for
+some hundred steps. Standard library only.
+"""
+
+import argparse
 import pathlib
 import sys
 
@@ -31,12 +40,31 @@ def moving_drum(program, folder, bed, threads):
     return latest
 
 
-def record(program, folder, bed, steps, threads):
+def record(program, folder, bed, steps, threads, slower=1.0):
     """Problems of these steps of 1 ms, each with the impulses of the step before it."""
-    out = folder / "recorded"
-    files = [out / f"ccp_{step}.h5" for step in steps]
+    name = "recorded" if slower == 1.0 else "slower"
+    files = [folder / name / f"ccp_{step}.h5" for step in steps]
     if not all(file.exists() for file in files):
         drum = moving_drum(program, folder, bed, threads)
         times = ",".join(f"{1e-3 * step:.3f}" for step in steps)
-        Scree(program, folder, "drum", drum, threads, FINE).run("recorded", 1e-3 * steps[-1], ["--record-ccp", "t=" + times])
+        scene = Scree(program, folder, "drum", drum, threads, FINE)
+        scene.drum.speed /= slower
+        scene.run(name, 1e-3 * steps[-1], ["--record-ccp", "t=" + times])
     return files
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program", help="scree")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("bed", type=pathlib.Path, help="a bed file, see scenes/bed.toml")
+    parser.add_argument("steps", type=lambda text: [int(step) for step in text.split(",")])
+    parser.add_argument("--slower", type=float, default=1.0, help="divides the speed of the drum")
+    parser.add_argument("--threads", type=int, default=2)
+    wanted = parser.parse_args()
+    for file in record(wanted.program, wanted.folder, wanted.bed.resolve(), wanted.steps, wanted.threads, wanted.slower):
+        print(file)
+
+
+if __name__ == "__main__":
+    main()

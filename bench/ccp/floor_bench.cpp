@@ -21,9 +21,7 @@
 #include <string_view>
 
 #include "bed.hpp"
-#include "scree/config/validate.hpp"
-#include "scree/host/plugin_host.hpp"
-#include "scree/interfaces/ccp_solver.hpp"
+#include "methods.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree::bench {
@@ -56,20 +54,6 @@ double wall_seconds() {
 }
 
 using Clock = double (*)();
-
-std::unique_ptr<CcpSolver> make_solver(const Variant& variant) {
-  static PluginHost plugins;
-  if (plugins.entries().empty()) {
-    const char* const folder = std::getenv("SCREE_PLUGIN_PATH");
-    plugins.search(folder != nullptr ? folder : SCREE_BENCH_PLUGINS);
-  }
-  const PluginEntry& entry = plugins.entry("ccp_solver", variant.plugin, {});
-  std::unique_ptr<Plugin> made = entry.make(options_from_text(variant.toml, entry.parameters));
-  auto* const solver = dynamic_cast<CcpSolver*>(made.get());
-  if (solver == nullptr) throw std::runtime_error{fmt::format("{} is no solver", variant.plugin)};
-  static_cast<void>(made.release());
-  return std::unique_ptr<CcpSolver>{solver};
-}
 
 Bed the_bed() {
   const char* const file = std::getenv("SCREE_BED");
@@ -119,7 +103,7 @@ void print_floor(std::span<const Variant> variants) {
              problem.bodies(), floor_bytes(problem) / contacts);
   fmt::print("{:<16}{:>12}{:>14}{:>10}{:>10}\n", "", "copy GB/s", "ns/contact", "floor", "ratio");
   for (const Variant& variant : variants) {
-    const std::unique_ptr<CcpSolver> solver = make_solver(variant);
+    const std::unique_ptr<CcpSolver> solver = make_solver(variant.plugin, variant.toml);
     std::vector<double> bandwidth, taken, ratio;
     for (int k = 0; k < kRepeats; ++k) {
       bandwidth.push_back(copy_bandwidth(one, &processor_seconds));
@@ -146,7 +130,8 @@ void print_threads() {
   fmt::print("{:<16}{:>16}{:>18}{:>8}{:>12}{:>14}\n", "", "serial ms/it", "2 threads ms/it", "gain", "copy gain",
              "gain / copy");
   for (const Row& row : kRows) {
-    const std::unique_ptr<CcpSolver> serial = make_solver(row.serial), threaded = make_solver(row.threaded);
+    const std::unique_ptr<CcpSolver> serial = make_solver(row.serial.plugin, row.serial.toml),
+                                     threaded = make_solver(row.threaded.plugin, row.threaded.toml);
     std::vector<double> before, after, gain, copy_gain;
     for (int k = 0; k < kRepeats; ++k) {
       before.push_back(iteration(*serial, problem, one, &wall_seconds));
@@ -195,7 +180,7 @@ void print_memory(std::size_t contacts) {
   fmt::print("{:<16}{:>18}\n", "", "bytes/contact");
   std::vector<double> gamma(problem.rows());
   for (const Variant& variant : kVariants) {
-    const std::unique_ptr<CcpSolver> solver = make_solver(variant);
+    const std::unique_ptr<CcpSolver> solver = make_solver(variant.plugin, variant.toml);
     const double before = resident_bytes("VmRSS:");
     std::fill(gamma.begin(), gamma.end(), 0.0);
     solver->solve(problem, context, gamma);

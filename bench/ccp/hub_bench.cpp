@@ -19,9 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "scree/config/validate.hpp"
-#include "scree/host/plugin_host.hpp"
-#include "scree/interfaces/ccp_solver.hpp"
+#include "methods.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree::bench {
@@ -133,20 +131,6 @@ double seconds(bool processor) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-std::unique_ptr<CcpSolver> make_solver(const Variant& variant) {
-  static PluginHost plugins;
-  if (plugins.entries().empty()) {
-    const char* const folder = std::getenv("SCREE_PLUGIN_PATH");
-    plugins.search(folder != nullptr ? folder : SCREE_BENCH_PLUGINS);
-  }
-  const PluginEntry& entry = plugins.entry("ccp_solver", variant.plugin, {});
-  std::unique_ptr<Plugin> made = entry.make(options_from_text(variant.toml, entry.parameters));
-  auto* const solver = dynamic_cast<CcpSolver*>(made.get());
-  if (solver == nullptr) throw std::runtime_error{fmt::format("{} is no solver", variant.plugin)};
-  static_cast<void>(made.release());
-  return std::unique_ptr<CcpSolver>{solver};
-}
-
 /// What solves of few and of many iterations took at least: their difference is free of what comes before and after.
 struct Iterations {
   std::array<double, 2> seconds{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -180,7 +164,7 @@ std::size_t number_from(const char* variable, std::size_t otherwise) {
 
 void print(const Variant& variant, const std::array<Pile, 3>& piles, int threads) {
   const Executor executor{threads};
-  const std::unique_ptr<CcpSolver> solver = make_solver(variant);
+  const std::unique_ptr<CcpSolver> solver = make_solver(variant.plugin, variant.toml);
   std::array<Iterations, 3> done;
   std::array<double, 3> each{};
   for (int k = 0; k < kRepeats; ++k) {

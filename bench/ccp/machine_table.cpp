@@ -4,12 +4,10 @@
 //     machine_table          prints a table for docs/measured
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "machines/rigs.hpp"
-#include "scree/config/validate.hpp"
-#include "scree/host/plugin_host.hpp"
+#include "methods.hpp"
 
 namespace {
 
@@ -17,16 +15,6 @@ using namespace scree;
 using namespace scree::test;
 
 constexpr int kSteps = 1000, kIterations = 100;
-
-std::unique_ptr<CcpSolver> make_solver(const char* name) {
-  static PluginHost plugins;
-  if (plugins.entries().empty()) {
-    const char* const folder = std::getenv("SCREE_PLUGIN_PATH");
-    plugins.search(folder != nullptr ? folder : SCREE_BENCH_PLUGINS);
-  }
-  const PluginEntry& entry = plugins.entry(CcpSolver::kKind, name, {});
-  return std::unique_ptr<CcpSolver>{dynamic_cast<CcpSolver*>(entry.make(default_options(entry.parameters)).release())};
-}
 
 std::string cold(Rig rig, CcpSolver& solver) {
   rig.gamma.clear();
@@ -62,7 +50,7 @@ int main() {
     fmt::print("\n{}\n\n| solver | from zero: residual [m/s] (iterations) | steps, share 1 |{}\n|---|---|---|{}\n",
                c.name, c.shares ? " share 0.2 | share 0.05 |" : "", c.shares ? "---|---|" : "");
     for (const char* name : {"pgs", "asgs", "jacobi", "apgd", "spg", "admm", "interior_point", "semismooth_newton"}) {
-      const std::unique_ptr<CcpSolver> solver = make_solver(name);
+      const std::unique_ptr<CcpSolver> solver = bench::make_solver(name);
       fmt::print("| `{}` | {} | {} |", name, cold(c.rig, *solver), loop(c.rig, *solver, 1.0));
       if (c.shares) fmt::print(" {} | {} |", loop(c.rig, *solver, 0.2), loop(c.rig, *solver, 0.05));
       fmt::print("\n");

@@ -1,7 +1,6 @@
 // Time and iterations to stated residuals, for every solver, from zero and from the guess of a run.
 //
 //     time_to_residual [--only=NAME,...] [--limit=N] [--no-map] LABEL=FILE[,FILE...] ...
-//     time_to_residual --guess=scaled|normal|both ...
 //     time_to_residual --events --only=NAME [--warm] [--limit=N] FILE
 //
 // A FILE is a bed (.txt), solved from zero, or a problem that `scree run --record-ccp` wrote (.h5), solved from zero and
@@ -11,8 +10,7 @@
 //
 // To a residual: one solve with it as tolerance, the least of three if short. To the natural map: the same with the largest
 // tolerance found, by interpolation, at which the map is small enough. One thread. --events says what happens as it happens, for
-// time_table.py, which ends what takes too long. --guess tries other guesses than the impulses of the step before: these times the number
-// with the least objective, their normal parts alone, both.
+// time_table.py, which ends what takes too long. Other guesses than the impulses of the step before: warm_starts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,18 +18,15 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "bed.hpp"
+#include "methods.hpp"
 #include "natural_map.hpp"
 #include "scree/ccp/ccp_file.hpp"
-#include "scree/config/validate.hpp"
-#include "scree/host/plugin_host.hpp"
-#include "scree/interfaces/ccp_solver.hpp"
 
 namespace scree::bench {
 namespace {
@@ -46,17 +41,11 @@ struct Settings {
   std::vector<std::string> only;
   int limit = 4000;
   bool map = true, events = false, warm = false;
-  bool scaled = false, normal = false;  ///< what is made of a guess
 };
 
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// A solver as asked for.
-struct Method {
-  std::string name, plugin, toml;
-};
 
 /// What one solve took.
 struct Cost {
@@ -71,18 +60,6 @@ struct Problem {
   [[nodiscard]] CcpProblem problem() const { return bed ? bed->problem() : record->problem(); }
 };
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> out{""};
-  for (const char c : text) {
-    if (c == at) {
-      out.emplace_back();
-    } else {
-      out.back().push_back(c);
-    }
-  }
-  return out;
-}
-
 Problem read(const std::string& file) {
   Problem out;
   if (file.ends_with(".txt")) {
@@ -93,30 +70,11 @@ Problem read(const std::string& file) {
   return out;
 }
 
-std::vector<Method> methods_of(const PluginHost& host, const Settings& settings) {
-  std::vector<Method> out;
-  for (const std::string& name : settings.only) {
-    const std::size_t brace = name.find('{');
-    const bool bare = brace == std::string::npos;
-    out.push_back({name, name.substr(0, brace), bare ? "" : name.substr(brace + 1, name.size() - brace - 2)});
-  }
-  if (!out.empty()) return out;
-  for (const PluginEntry* entry : host.entries()) {
-    if (entry->kind == CcpSolver::kKind) out.push_back({entry->name, entry->name, ""});
-  }
-  out.push_back({"apgd, plain", "apgd", "scaled = false"});
-  return out;
-}
-
 /// One method on one problem from one guess.
 class Trial {
  public:
-  Trial(const PluginHost& host, const Method& method, const CcpProblem& problem, std::span<const double> guess,
-        const Settings& settings)
-      : problem_{problem}, guess_{guess}, settings_{settings} {
-    const PluginEntry& entry = host.entry(CcpSolver::kKind, method.plugin, {});
-    plugin_ = entry.make(options_from_text(method.toml, entry.parameters));
-    solver_ = dynamic_cast<CcpSolver*>(plugin_.get());
+  Trial(const Method& method, const CcpProblem& problem, std::span<const double> guess, const Settings& settings)
+      : problem_{problem}, guess_{guess}, settings_{settings}, solver_{make_solver(method.plugin, method.toml)} {
     delassus_.bind(problem_, nullptr);
   }
 
@@ -208,8 +166,7 @@ class Trial {
   CcpProblem problem_;
   std::span<const double> guess_;
   const Settings& settings_;
-  std::unique_ptr<Plugin> plugin_;
-  CcpSolver* solver_ = nullptr;
+  std::unique_ptr<CcpSolver> solver_;
   DelassusOperator delassus_;
   SolveSummary summary_;
   std::vector<double> gamma_;
@@ -245,26 +202,7 @@ void print(const std::string& name, const Row& row) {
   std::fflush(stdout);
 }
 
-// What is made of the impulses of the step before.
-std::vector<double> guess_from(const CcpProblem& problem, std::span<const double> before, const Settings& settings) {
-  std::vector<double> guess(before.begin(), before.end());
-  for (std::size_t k = 0; k < problem.contact_rows() && settings.normal; ++k) {
-    if (k % 3 != 0) guess[k] = 0.0;
-  }
-  if (!settings.scaled) return guess;
-  DelassusOperator delassus;
-  delassus.bind(problem, nullptr);
-  double linear = 0.0;
-  for (std::size_t k = 0; k < guess.size(); ++k) linear += problem.r[k] * guess[k];
-  const double quadratic = 2.0 * (delassus.objective(guess) - linear);
-  const double best = quadratic > 0.0 ? std::max(0.0, -linear / quadratic) : 1.0;
-  fmt::print("(guess times {:.3f})\n", best);
-  for (double& g : guess) g *= best;
-  return guess;
-}
-
-void measure(const PluginHost& host, const Settings& settings, const std::string& label,
-             const std::vector<Problem>& problems) {
+void measure(const Settings& settings, const std::string& label, const std::vector<Problem>& problems) {
   std::size_t contacts = 0;
   for (const Problem& p : problems) contacts += p.problem().contacts.size() / problems.size();
   for (const bool warm : {false, true}) {
@@ -273,15 +211,11 @@ void measure(const PluginHost& host, const Settings& settings, const std::string
                problems.size(), contacts);
     for (const double residual : kResiduals) fmt::print(" {:g} m/s |", residual);
     fmt::print(" natural map {:g} |\n|---|---|---|---|---|\n", kMap);
-    std::vector<std::vector<double>> guesses;
-    for (const Problem& p : problems) {
-      guesses.push_back(warm ? guess_from(p.problem(), p.record->guess, settings) : std::vector<double>{});
-    }
-    for (const Method& method : methods_of(host, settings)) {
+    for (const Method& method : methods_of(settings.only)) {
       std::vector<Row> rows;
       for (const Problem& p : problems) {
-        const std::span<const double> guess = guesses[rows.size()];
-        rows.push_back(Trial{host, method, p.problem(), guess, settings}.run());
+        const std::span<const double> guess = warm ? p.record->guess : std::span<const double>{};
+        rows.push_back(Trial{method, p.problem(), guess, settings}.run());
       }
       print(method.name, mean(rows));
     }
@@ -289,18 +223,15 @@ void measure(const PluginHost& host, const Settings& settings, const std::string
 }
 
 // One method on one problem, told line by line.
-void tell(const PluginHost& host, const Settings& settings, const std::string& file) {
+void tell(const Settings& settings, const std::string& file) {
   const Problem problem = read(file);
   fmt::print("contacts {}\n", problem.problem().contacts.size());
   std::vector<double> guess;
   if (settings.warm && problem.record) guess = problem.record->guess;
-  Trial{host, methods_of(host, settings).front(), problem.problem(), guess, settings}.run();
+  Trial{methods_of(settings.only).front(), problem.problem(), guess, settings}.run();
 }
 
 int run(const std::vector<std::string>& arguments) {
-  PluginHost host;
-  const char* const folder = std::getenv("SCREE_PLUGIN_PATH");
-  host.search(folder != nullptr ? folder : SCREE_BENCH_PLUGINS);
   Settings settings;
   for (const std::string& argument : arguments) {
     if (argument.starts_with("--only=")) {
@@ -309,20 +240,17 @@ int run(const std::vector<std::string>& arguments) {
       settings.map = false;
     } else if (argument == "--events") {
       settings.events = true;
-    } else if (argument.starts_with("--guess=")) {
-      settings.scaled = argument != "--guess=normal";
-      settings.normal = argument != "--guess=scaled";
     } else if (argument == "--warm") {
       settings.warm = true;
     } else if (settings.events && !argument.starts_with("--")) {
-      tell(host, settings, argument);
+      tell(settings, argument);
     } else if (argument.starts_with("--limit=")) {
       settings.limit = std::stoi(argument.substr(8));
     } else {
       const std::size_t equals = argument.find('=');
       std::vector<Problem> problems;
       for (const std::string& file : split(argument.substr(equals + 1), ',')) problems.push_back(read(file));
-      measure(host, settings, argument.substr(0, equals), problems);
+      measure(settings, argument.substr(0, equals), problems);
     }
   }
   return 0;
