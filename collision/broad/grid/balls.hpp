@@ -19,19 +19,27 @@
 
 namespace scree::grid {
 
-/// A coordinate in single precision. What is absurdly far is moved nearer, in order, so that its square remains a number.
-inline float rounded(double x) { return static_cast<float>(std::clamp(x, -1e17, 1e17)); }
+/// Coordinates are brought below this [m], in order: the square of what is absurdly far remains a number.
+inline constexpr double kFarthest = 1e17;
+/// A coordinate in single precision.
+inline float rounded(double x) { return static_cast<float>(std::clamp(x, -kFarthest, kFarthest)); }
 
 /// In single precision, about the grid's origin [m]; grown by more than its rounding.
 struct Ball {
   float x = 0.0f, y = 0.0f, z = 0.0f, r = 0.0f;
 
   Ball() = default;
-  Ball(const Vec3& centre, double radius) : x{rounded(centre.x)}, y{rounded(centre.y)}, z{rounded(centre.z)} {
+  Ball(const Vec3& centre, double radius)
+      : x{rounded(centre.x)},
+        y{rounded(centre.y)},
+        z{rounded(centre.z)},
+        r{grown(radius, std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z))} {}
+
+  /// The radius of a ball whose coordinates add up to `far`.
+  static float grown(double radius, double far) {
     // Rounding of coordinates, of their differences and of the squares: below 8 units in the last place, 6e-8 each.
     constexpr double kGrowth = 5e-7;
-    const double far = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z);
-    r = static_cast<float>(std::min(radius * (1.0 + kGrowth) + kGrowth * far + 1e-30, 1e18));
+    return static_cast<float>(std::min(radius * (1.0 + kGrowth) + kGrowth * far + 1e-30, 1e18));
   }
 };
 
@@ -64,8 +72,8 @@ class Balls {
   /// Writes the pairs of i with those of first..last-1 that it meets to `near`, which has room for kLanes more than that, and
   /// returns how many. What is not a number meets all.
   std::size_t meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const;
-  /// The same for the five rows.
-  std::size_t meeting(std::uint32_t i, const Rows& rows, Near* near) const;
+  /// Those of short rows that ball i meets, as Rows::items has them. What is not a number meets all.
+  [[nodiscard]] std::uint64_t meeting_short(std::uint32_t i, const Rows& rows) const;
 
  private:
   [[nodiscard]] const float& x_of(std::size_t i) const { return all_[i]; }
@@ -120,39 +128,21 @@ inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uin
   return count;
 }
 
-inline std::size_t Balls::meeting(std::uint32_t i, const Rows& rows, Near* near) const {
-  if (!rows.are_short) {
-    std::size_t count = 0;
-    for (std::size_t row = 0; row < rows.last.size(); ++row) {
-      count += meeting(i, rows.first[row], rows.last[row], near + count);
-    }
-    return count;
-  }
+inline std::uint64_t Balls::meeting_short(std::uint32_t i, const Rows& rows) const {
   const float *const xs = all_.data(), *const ys = xs + stride_, *const zs = ys + stride_, *const rs = zs + stride_;
   const __m256 x = _mm256_set1_ps(x_of(i)), y = _mm256_set1_ps(y_of(i)), z = _mm256_set1_ps(z_of(i));
   const __m256 r = _mm256_set1_ps(r_of(i));
-  // A bit an item, a byte a row.
   std::uint64_t meet = 0;
-  for (std::size_t row = 0; row < rows.last.size(); ++row) {
+  for (std::size_t row = 0; row < Rows::kRows; ++row) {
     const std::uint32_t k = rows.first[row];
-    const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(xs + k), x), dy = _mm256_sub_ps(_mm256_loadu_ps(ys + k), y);
-    const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(zs + k), z), radii = _mm256_add_ps(_mm256_loadu_ps(rs + k), r);
+    const __m256 dx = _mm256_sub_ps(x, _mm256_loadu_ps(xs + k)), dy = _mm256_sub_ps(y, _mm256_loadu_ps(ys + k));
+    const __m256 dz = _mm256_sub_ps(z, _mm256_loadu_ps(zs + k)), radii = _mm256_add_ps(r, _mm256_loadu_ps(rs + k));
     const __m256 squares =
         _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
     const int hits = _mm256_movemask_ps(_mm256_cmp_ps(squares, _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
     meet |= std::uint64_t{static_cast<std::uint32_t>(hits)} << (8 * row);
   }
-  meet &= rows.items;
-  const auto count = static_cast<std::size_t>(std::popcount(meet));
-  const auto write_next = [&](Near& place) {
-    const auto bit = static_cast<unsigned>(std::countr_zero(meet));
-    place = {i, rows.first[bit / 8] + bit % 8};
-    meet &= meet - 1;
-  };
-  // Few have more than four, which are written without a look at how many there are.
-  for (std::size_t n = 0; n < 4; ++n) write_next(near[n]);
-  for (std::size_t n = 4; n < count; ++n) write_next(near[n]);
-  return count;
+  return meet & rows.items;
 }
 
 #else
@@ -167,12 +157,14 @@ inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uin
   return count;
 }
 
-inline std::size_t Balls::meeting(std::uint32_t i, const Rows& rows, Near* near) const {
-  std::size_t count = 0;
-  for (std::size_t row = 0; row < rows.last.size(); ++row) {
-    count += meeting(i, rows.first[row], rows.last[row], near + count);
+inline std::uint64_t Balls::meeting_short(std::uint32_t i, const Rows& rows) const {
+  std::uint64_t meet = 0;
+  for (std::uint64_t left = rows.items; left != 0; left &= left - 1) {
+    const std::uint32_t k = rows.item(static_cast<unsigned>(std::countr_zero(left)));
+    const float dx = x_of(k) - x_of(i), dy = y_of(k) - y_of(i), dz = z_of(k) - z_of(i), radii = r_of(k) + r_of(i);
+    if (!(dx * dx + dy * dy + dz * dz > radii * radii)) meet |= left & (0 - left);
   }
-  return count;
+  return meet;
 }
 
 #endif

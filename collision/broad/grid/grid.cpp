@@ -28,19 +28,17 @@ float rounded_down(double x) {
 }
 
 /// True for planes and for what diverged: no number, larger than a planet, or so far that a double no longer tells what it touches.
-/// One of these would make all other balls look alike.
-bool is_lost(const Vec3& centre, double radius) {
+/// One of these would make all other balls look alike. `far` [m]: the sum of its coordinates.
+bool is_lost(double far, double radius) {
   constexpr double kLargest = 1e7;    // [m]
   constexpr double kFarthest = 1e15;  // in radii
-  return !(radius <= kLargest && std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) <= kFarthest * radius);
+  return !(radius <= kLargest && far <= kFarthest * radius);
 }
 
-/// A ball that meets nothing.
-grid::Ball nowhere() {
-  grid::Ball ball;
-  ball.r = -1.0f;
-  return ball;
-}
+double far_of(const Vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+/// Radius of what meets nothing.
+constexpr float kNowhere = -1.0f;
 
 }  // namespace
 
@@ -62,51 +60,98 @@ bool Grid::choose_origin(const BoxView& boxes) {
   }
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = (n / 2 + k) % n;
-    if (is_lost(boxes.ball[i].centre, boxes.ball[i].radius + boxes.margin[i])) continue;
+    if (is_lost(far_of(boxes.ball[i].centre), boxes.ball[i].radius + boxes.margin[i])) continue;
     origin_ = boxes.ball[i].centre;
     return true;
   }
   return false;
 }
 
+grid::Ball Grid::spot_of_box(const BoxView& boxes, std::size_t i) const {
+  const Item item = item_of(boxes, i, origin_);
+  float size = 0.0f;
+  for (std::size_t k = 0; k < 3; ++k) size = std::max(size, -item.minus_upper[k] - item.lower[k]);
+  const Vec3 middle = 0.5 * (boxes.box[i].lower + boxes.box[i].upper) - origin_;
+  grid::Ball spot;
+  spot.x = grid::rounded(middle.x);
+  spot.y = grid::rounded(middle.y);
+  spot.z = grid::rounded(middle.z);
+  spot.r = 0.5f * std::min(size, 1e18f);
+  return spot;
+}
+
+/// Places balls; returns where they lie. What lies nowhere counts as lying at the origin, where some ball is.
+Grid::Extent Grid::place_balls(const BoxView& boxes, std::size_t first, std::size_t last) {
+  Extent extent;
+#ifdef __AVX2__
+  static_assert(sizeof(BoundingBall) == 32 && sizeof(grid::Ball) == 16);
+  const __m256d origin = _mm256_setr_pd(origin_.x, origin_.y, origin_.z, 0.0);
+  const __m256d most = _mm256_set1_pd(grid::kFarthest), sign = _mm256_set1_pd(-0.0);
+  __m128 lower = _mm_loadu_ps(extent.lower.data()), upper = _mm_loadu_ps(extent.upper.data());
+  for (std::size_t i = first; i < last; ++i) {
+    const __m256d centre = _mm256_sub_pd(_mm256_loadu_pd(&boxes.ball[i].centre.x), origin);
+    const __m256d size = _mm256_andnot_pd(sign, centre);
+    const __m128d xy = _mm256_castpd256_pd128(size), z = _mm256_extractf128_pd(size, 1);
+    const double far = _mm_cvtsd_f64(_mm_add_sd(_mm_add_sd(xy, _mm_unpackhi_pd(xy, xy)), z));
+    const double radius = boxes.ball[i].radius + boxes.margin[i];
+    const __m256d near = _mm256_max_pd(_mm256_min_pd(centre, most), _mm256_xor_pd(sign, most));
+    __m128 spot = _mm_insert_ps(_mm256_cvtpd_ps(near), _mm_set_ss(grid::Ball::grown(radius, far)), 0x30);
+    if (is_lost(far, radius)) spot = _mm_setr_ps(0.0f, 0.0f, 0.0f, kNowhere);
+    _mm_storeu_ps(&spots_[i].x, spot);
+    lower = _mm_min_ps(spot, lower);
+    upper = _mm_max_ps(spot, upper);
+  }
+  _mm_storeu_ps(extent.lower.data(), lower);
+  _mm_storeu_ps(extent.upper.data(), upper);
+#else
+  for (std::size_t i = first; i < last; ++i) {
+    const Vec3 centre = boxes.ball[i].centre - origin_;
+    const double radius = boxes.ball[i].radius + boxes.margin[i];
+    spots_[i] = {centre, radius};
+    if (is_lost(far_of(centre), radius)) spots_[i].x = spots_[i].y = spots_[i].z = 0.0f, spots_[i].r = kNowhere;
+    extent.add(spots_[i]);
+  }
+#endif
+  return extent;
+}
+
 void Grid::place_boxes(const BoxView& boxes, const Executor& executor) {
   spots_.resize(boxes.size());
+  extent_.resize(Executor::chunk_count(boxes.size(), kBoxesPerChunk));
   executor.for_chunks(boxes.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
+    Extent& extent = extent_[first / kBoxesPerChunk];
+    if (balls_alone_) {
+      extent = place_balls(boxes, first, last);
+      return;
+    }
+    extent = {};
     for (std::size_t i = first; i < last; ++i) {
-      if (balls_alone_) {
-        const Vec3 centre = boxes.ball[i].centre - origin_;
-        const double radius = boxes.ball[i].radius + boxes.margin[i];
-        spots_[i] = is_lost(centre, radius) ? nowhere() : grid::Ball{centre, radius};
-      } else {
-        const Item item = item_of(boxes, i, origin_);
-        float size = 0.0f;
-        for (std::size_t k = 0; k < 3; ++k) size = std::max(size, -item.minus_upper[k] - item.lower[k]);
-        const Vec3 middle = 0.5 * (boxes.box[i].lower + boxes.box[i].upper) - origin_;
-        spots_[i].x = grid::rounded(middle.x);
-        spots_[i].y = grid::rounded(middle.y);
-        spots_[i].z = grid::rounded(middle.z);
-        spots_[i].r = 0.5f * std::min(size, 1e18f);
-      }
+      spots_[i] = spot_of_box(boxes, i);
+      extent.add(spots_[i]);
     }
   });
+  for (std::size_t k = 1; k < extent_.size(); ++k) extent_[0].add(extent_[k]);
 }
 
 bool Grid::choose_sizes() {
-  float largest = -1.0f;
-  for (const grid::Ball& spot : spots_) largest = std::max(largest, 2.0f * spot.r);
+  const float largest = 2.0f * extent_[0].upper[3];
   if (largest < 0.0f) return false;
   // What is smaller than this shares the finest level.
   const float smallest = std::ldexp(largest, -static_cast<int>(kLevels - 3));
   const std::uint32_t last = bin_of(largest);
   const std::uint32_t first = std::min(last, bin_of(std::max(smallest, std::numeric_limits<float>::min())));
+  placed_ = 0;
   histogram_.assign(last - first + 1, 0);
   largest_.assign(last - first + 1, 0.0f);
   for (const grid::Ball& spot : spots_) {
     if (spot.r < 0.0f) continue;
     const std::uint32_t bin = std::max(bin_of(2.0f * spot.r), first) - first;
     ++histogram_[bin];
+    ++placed_;
     largest_[bin] = std::max(largest_[bin], 2.0f * spot.r);
   }
+  std::uint32_t bottom = first;  // the lowest bin with something in it
+  while (histogram_[bottom - first] == 0) ++bottom;
 
   // Levels are octaves; where the octaves begin is free. Cost of a box: cells that are larger than it hold more
   // neighbours, and each populated coarser level is searched too.
@@ -124,18 +169,18 @@ bool Grid::choose_sizes() {
       }
       const std::uint32_t below_edge = kBinsPerOctave - 1 - place % kBinsPerOctave;
       cost += count * (std::exp2(3.0 * below_edge / kBinsPerOctave) + coarser);
-      if (bin == first) break;
+      if (bin == bottom) break;
     }
     if (cost < best) {
       best = cost;
-      first_bin_ = first - (first + kBinsPerOctave - shift) % kBinsPerOctave;
+      first_bin_ = bottom - (bottom + kBinsPerOctave - shift) % kBinsPerOctave;
     }
   }
   level_count_ = (last - first_bin_) / kBinsPerOctave + 1;
   for (std::size_t l = 0; l < level_count_; ++l) {
     const std::uint32_t begin = first_bin_ + kBinsPerOctave * static_cast<std::uint32_t>(l);
     float widest = lower_edge_of(begin);
-    for (std::uint32_t bin = std::max(begin, first); bin <= std::min(begin + kBinsPerOctave - 1, last); ++bin) {
+    for (std::uint32_t bin = std::max(begin, bottom); bin <= std::min(begin + kBinsPerOctave - 1, last); ++bin) {
       widest = std::max(widest, largest_[bin - first]);
     }
     levels_[l].cell = 1.0001 * double{widest};
@@ -148,36 +193,36 @@ std::size_t Grid::level_of(float size) const {
   return (std::max(bin_of(size), first_bin_) - first_bin_) / kBinsPerOctave;
 }
 
-void Grid::fit_levels(const Executor& executor) {
-  constexpr float kFar = std::numeric_limits<float>::max();
+/// The extents of the levels, into the first of extents_.
+void Grid::measure_levels(const Executor& executor) {
+  if (level_count_ == 1) {
+    extents_.resize(1);
+    extents_[0][0] = extent_[0];
+    extents_[0][0].boxes = placed_;
+    return;
+  }
   extents_.resize(Executor::chunk_count(spots_.size(), kBoxesPerChunk));
   executor.for_chunks(spots_.size(), kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     Extents& extents = extents_[first / kBoxesPerChunk];
-    std::fill_n(extents.begin(), level_count_, Extent{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}, 0});
+    std::fill_n(extents.begin(), level_count_, Extent{});
     for (std::size_t i = first; i < last; ++i) {
-      const grid::Ball& spot = spots_[i];
-      if (spot.r < 0.0f) continue;
-      Extent& extent = extents[level_of(2.0f * spot.r)];
+      if (spots_[i].r < 0.0f) continue;
+      Extent& extent = extents[level_of(2.0f * spots_[i].r)];
+      extent.add(spots_[i]);
       ++extent.boxes;
-      const std::array<float, 3> at{spot.x, spot.y, spot.z};
-      for (std::size_t k = 0; k < 3; ++k) {
-        extent.lower[k] = std::min(extent.lower[k], at[k]);
-        extent.upper[k] = std::max(extent.upper[k], at[k]);
-      }
     }
   });
+  for (std::size_t part = 1; part < extents_.size(); ++part) {
+    for (std::size_t l = 0; l < level_count_; ++l) extents_[0][l].add(extents_[part][l]);
+  }
+}
+
+void Grid::fit_levels(const Executor& executor) {
+  measure_levels(executor);
   cells_ = 0;
   for (std::size_t l = 0; l < level_count_; ++l) {
+    const Extent& whole = extents_[0][l];
     grid::Level& level = levels_[l];
-    Extent whole = extents_[0][l];
-    for (std::size_t part = 1; part < extents_.size(); ++part) {
-      const Extent& extent = extents_[part][l];
-      for (std::size_t k = 0; k < 3; ++k) {
-        whole.lower[k] = std::min(whole.lower[k], extent.lower[k]);
-        whole.upper[k] = std::max(whole.upper[k], extent.upper[k]);
-      }
-      whole.boxes += extent.boxes;
-    }
     level.boxes = whole.boxes;
     level.first_cell = cells_;
     if (whole.boxes == 0) continue;
@@ -197,11 +242,11 @@ void Grid::sort_into_cells(const BoxView& boxes, const Executor& executor) {
   executor.for_chunks(n, kBoxesPerChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const grid::Ball& spot = spots_[i];
-      const grid::Level& level = levels_[spot.r < 0.0f ? 0 : level_of(2.0f * spot.r)];
-      const auto at = [&](std::size_t k, float x) {
-        return level.axis[k].store(level.cell_of(double{x}) - level.axis[k].origin);
-      };
-      cell_[i] = spot.r < 0.0f ? cells_ : level.index(at(0, spot.x), at(1, spot.y), at(2, spot.z));
+      if (spot.r < 0.0f) {
+        cell_[i] = cells_;
+      } else {
+        cell_[i] = levels_[level_count_ == 1 ? 0 : level_of(2.0f * spot.r)].index_of(&spot.x);
+      }
     }
   });
   // Counting sort; counts land one place late, so that the scatter leaves the beginnings behind.
@@ -262,7 +307,7 @@ void Grid::find_pairs(const BoxView& boxes, const Executor& executor, std::vecto
 }
 
 void Grid::release_workspace() {
-  release(spots_, extents_, cell_, cell_begin_, order_, sorted_, found_);
+  release(spots_, extent_, extents_, cell_, cell_begin_, order_, sorted_, found_);
   balls_.release();
 }
 

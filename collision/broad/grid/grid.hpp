@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "balls.hpp"
@@ -52,23 +53,46 @@ class Grid : public BroadPhase {
   static bool are_wanted(const Item& item, const Item& other);
   static constexpr std::size_t kLevels = 40;
   static constexpr std::uint32_t kMovable = 0x80000000u;
-  /// Where the boxes of one level lie, in one chunk [m].
+  /// Where boxes lie, and how large they are: x, y, z and r [m].
   struct Extent {
-    std::array<float, 3> lower;
-    std::array<float, 3> upper;
-    std::uint32_t boxes;
+    std::array<float, 4> lower, upper;
+    std::uint32_t boxes = 0;
+
+    Extent() {
+      lower.fill(std::numeric_limits<float>::max());
+      upper.fill(-std::numeric_limits<float>::max());
+    }
+    /// What is no number is left out.
+    void add(const Extent& other) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        lower[k] = other.lower[k] < lower[k] ? other.lower[k] : lower[k];
+        upper[k] = other.upper[k] > upper[k] ? other.upper[k] : upper[k];
+      }
+      boxes += other.boxes;
+    }
+    void add(const grid::Ball& spot) {
+      const std::array<float, 4> at{spot.x, spot.y, spot.z, spot.r};
+      for (std::size_t k = 0; k < 4; ++k) {
+        lower[k] = at[k] < lower[k] ? at[k] : lower[k];
+        upper[k] = at[k] > upper[k] ? at[k] : upper[k];
+      }
+    }
   };
   using Extents = std::array<Extent, kLevels>;
 
+  Extent place_balls(const BoxView& boxes, std::size_t first, std::size_t last);
   bool choose_origin(const BoxView& boxes);
+  [[nodiscard]] grid::Ball spot_of_box(const BoxView& boxes, std::size_t i) const;
   void place_boxes(const BoxView& boxes, const Executor& executor);
   /// False when nothing lies anywhere.
   bool choose_sizes();
+  void measure_levels(const Executor& executor);
   void fit_levels(const Executor& executor);
   void sort_into_cells(const BoxView& boxes, const Executor& executor);
   [[nodiscard]] std::size_t level_of(float size) const;
   void search(std::size_t first, std::size_t last, Found& found, std::vector<CandidatePair>& out) const;
   void find_rows(const grid::Level& level, std::uint32_t cell, grid::Rows& rows) const;
+  void search_long_rows(std::uint32_t i, const grid::Rows& rows, Found& found) const;
   /// Looks for what item i can meet among the items from `begin` on in the cells of `level`.
   void search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const;
   /// Appends those of found.near that meet to `out`.
@@ -83,7 +107,9 @@ class Grid : public BroadPhase {
   std::uint32_t first_bin_ = 0;           // of the finest level
   std::array<grid::Level, kLevels> levels_;
   std::size_t level_count_ = 0;
-  std::vector<Extents> extents_;              // by chunk
+  std::uint32_t placed_ = 0;                  // boxes that lie somewhere
+  std::vector<Extent> extent_;                // by chunk; the first one, in the end, of all
+  std::vector<Extents> extents_;              // by chunk, of several levels
   std::uint32_t cells_ = 0;                   // one more holds what lies nowhere
   UninitialisedVector<std::uint32_t> cell_;   // of each box
   std::vector<std::uint32_t> cell_begin_;     // first sorted item of each cell, and one more

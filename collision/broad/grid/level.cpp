@@ -20,6 +20,16 @@ void Level::fit(const std::array<std::int32_t, 3>& lower, const std::array<std::
     longest.stored = static_cast<std::int32_t>(std::bit_floor(static_cast<std::uint32_t>(longest.stored - 1)));
     longest.wrapped = true;
   }
+  if (!is_wrapped()) {
+    for (LevelAxis& a : axis) ++a.stored;
+  }
+  std::int32_t stride = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    origin_[k] = axis[k].origin;
+    mask_[k] = axis[k].wrapped ? axis[k].stored - 1 : -1;
+    stride_[k] = stride;
+    stride *= axis[k].stored;
+  }
 }
 
 }  // namespace scree::grid

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "grid.hpp"
 
@@ -95,60 +96,74 @@ void Grid::search_level(std::uint32_t i, const grid::Level& level, std::uint32_t
   }
 }
 
+/// Behind each line and plane of cells lies an empty one, so nothing has to be asked of where the level ends.
 void Grid::find_rows(const grid::Level& level, std::uint32_t cell, grid::Rows& rows) const {
-  const auto width = static_cast<std::uint32_t>(level.axis[0].stored);
-  const auto depth = static_cast<std::uint32_t>(level.axis[1].stored);
-  const auto height = static_cast<std::uint32_t>(level.axis[2].stored);
-  const std::uint32_t line = (cell - level.first_cell) / width, x = cell - level.first_cell - line * width;
-  const std::uint32_t z = line / depth, y = line - z * depth;
+  const auto [width, depth, height] = level.stored();
+  const std::size_t line = width, plane = std::size_t{width} * depth;
   const std::uint32_t* const begin = cell_begin_.data() + cell;
-  // Cells from one before to one behind, where there are these.
-  const std::uint32_t before = x > 0 ? 1 : 0, behind = x + 1 < width ? 1 : 0;
-  const auto set = [&](std::size_t k, std::size_t ahead, bool exists) {
-    rows.first[k] = exists ? begin[ahead - before] : 0;
-    rows.last[k] = exists ? begin[ahead + behind + 1] : 0;
-  };
-  const std::size_t next_y = width, next_z = std::size_t{width} * depth;
-  const bool above = z + 1 < height;
-  rows.last[0] = begin[behind + 1];
-  set(1, next_y, y + 1 < depth);
-  set(2, next_z - next_y, above && y > 0);
-  set(3, next_z, above);
-  set(4, next_z + next_y, above && y + 1 < depth);
-  rows.note_lengths();
+  rows.last[0] = begin[2];
+  const auto set = [&](std::size_t k, std::size_t ahead) { rows.set(k, begin[ahead - 1], begin[ahead + 2]); };
+  set(1, line);
+  set(2, plane - line);
+  set(3, plane);
+  set(4, plane + line);
+}
+
+void Grid::search_long_rows(std::uint32_t i, const grid::Rows& rows, Found& found) const {
+  for (std::size_t row = 0; row < rows.last.size(); ++row) {
+    found.near_count += balls_.meeting(i, rows.first[row], rows.last[row], &found.near[found.near_count]);
+  }
 }
 
 void Grid::search(std::size_t first, std::size_t last, Found& found, std::vector<CandidatePair>& out) const {
   found.near_count = 0;
   const auto at = std::upper_bound(cell_begin_.begin(), cell_begin_.end(), static_cast<std::uint32_t>(first));
   auto cell = static_cast<std::uint32_t>(at - cell_begin_.begin()) - 1;
-  std::uint32_t end_of_cell = 0;  // of the cell whose rows are known
   std::size_t own = 0;
   grid::Rows rows;
-  std::size_t most = 0;
-  for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
-    while (cell_begin_[std::size_t{cell} + 1] <= i) ++cell;
+  const auto search_short_rows = [&](std::uint32_t i) {
+    std::uint64_t meet = balls_.meeting_short(i, rows);
+    const auto count = static_cast<std::size_t>(std::popcount(meet));
+    grid::Balls::Near* const near = &found.near[found.near_count];
+    const auto write_next = [&](grid::Balls::Near& place) {
+      place = {i, rows.item(static_cast<unsigned>(std::countr_zero(meet)))};
+      meet &= meet - 1;
+    };
+    // Few have more than four, which are written without a look at how many there are.
+    for (std::size_t n = 0; n < 4; ++n) write_next(near[n]);
+    for (std::size_t n = 4; n < count; ++n) write_next(near[n]);
+    found.near_count += count;
+  };
+  for (auto i = static_cast<std::uint32_t>(first); i < last; ++cell) {
+    const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(cell_begin_[std::size_t{cell} + 1], last));
+    if (i >= end) continue;
     while (own + 1 < level_count_ && cell >= levels_[own + 1].first_cell) ++own;
     const grid::Level& level = levels_[own];
-    // Of two boxes of one level the first one finds the other.
-    if (level.is_wrapped()) {
-      search_level(i, level, i + 1, found);
-    } else {
-      if (i >= end_of_cell) {
-        end_of_cell = cell_begin_[std::size_t{cell} + 1];
-        find_rows(level, cell, rows);
-        most = rows.last[0] - i;
-        for (std::size_t k = 1; k < 5; ++k) most += rows.last[k] - rows.first[k];
+    const bool wrapped = level.is_wrapped();
+    std::size_t most = 0;
+    if (!wrapped) {
+      find_rows(level, cell, rows);
+      most = rows.count_from(i);
+    }
+    for (; i < end; ++i) {
+      // Of two boxes of one level the first one finds the other.
+      if (wrapped) {
+        search_level(i, level, i + 1, found);
+      } else {
+        rows.begin_at(i + 1);
+        found.make_room(most);
+        if (rows.are_short) {
+          search_short_rows(i);
+        } else {
+          search_long_rows(i, rows, found);
+        }
       }
-      found.make_room(most);
-      rows.begin_at(i + 1);
-      found.near_count += balls_.meeting(i, rows, &found.near[found.near_count]);
+      for (std::size_t l = own + 1; l < level_count_; ++l) {
+        if (levels_[l].boxes > 0) search_level(i, levels_[l], 0, found);
+      }
+      // While they are in the cache.
+      if (found.near_count >= kNear) keep_meeting(found, out);
     }
-    for (std::size_t l = own + 1; l < level_count_; ++l) {
-      if (levels_[l].boxes > 0) search_level(i, levels_[l], 0, found);
-    }
-    // While they are in the cache.
-    if (found.near_count >= kNear) keep_meeting(found, out);
   }
   keep_meeting(found, out);
 }

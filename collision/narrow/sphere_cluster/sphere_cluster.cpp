@@ -7,6 +7,7 @@
 #include "contact_writer.hpp"
 #include "hull.hpp"
 #include "scree/interfaces/plugin_library.hpp"
+#include "single_spheres.hpp"
 #include "support_points.hpp"
 
 namespace scree {
@@ -36,43 +37,6 @@ struct Scratch {
 
 /// Unit vector along v; up when v is too short to have a direction.
 Vec3 direction(const Vec3& v, double length) { return length > 1e-300 ? v / length : Vec3{0, 0, 1}; }
-
-/// Pairs of single spheres. Several are computed side by side, which a compiler turns into vectors.
-void collide_spheres(const ColliderView& colliders, std::span<const ColliderPair> pairs, ContactBuffer& out) {
-  constexpr std::size_t kSide = 8;
-  struct Side {
-    std::array<double, kSide> x{}, y{}, z{}, radii{}, d2{}, d{}, inverse{}, gap{}, far{};
-  } s;
-  const BoundingBall* const ball = colliders.ball.data();
-  for (std::size_t first = 0; first < pairs.size(); first += kSide) {
-    const std::size_t count = std::min(kSide, pairs.size() - first);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (first + k + kPrefetch < pairs.size()) prefetch(colliders, pairs[first + k + kPrefetch].b);
-      const BoundingBall &a = ball[pairs[first + k].a], &b = ball[pairs[first + k].b];
-      const Vec3 to_b = b.centre - a.centre;
-      s.x[k] = to_b.x, s.y[k] = to_b.y, s.z[k] = to_b.z;
-      s.radii[k] = a.radius + b.radius;
-      s.far[k] = a.radius;
-    }
-    for (std::size_t k = 0; k < kSide; ++k) {
-      s.d2[k] = s.x[k] * s.x[k] + s.y[k] * s.y[k] + s.z[k] * s.z[k];
-      s.d[k] = std::sqrt(s.d2[k]);
-      s.gap[k] = s.d[k] - s.radii[k];
-      s.inverse[k] = 1.0 / s.d[k];
-      s.far[k] += 0.5 * s.gap[k];
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto [a, b, reach] = pairs[first + k];
-      const double limit = s.radii[k] + reach;
-      if (s.d2[k] >= limit * limit) continue;
-      // Down when the centres are too near each other to give a direction.
-      const Vec3 normal =
-          s.d[k] > 1e-300 ? Vec3{s.x[k] * s.inverse[k], s.y[k] * s.inverse[k], s.z[k] * s.inverse[k]} : Vec3{0, 0, -1};
-      out.push_back({colliders.body[a], colliders.body[b], colliders.ordinal[a], colliders.ordinal[b], 0,
-                     ball[a].centre + s.far[k] * normal, normal, s.gap[k]});
-    }
-  }
-}
 
 /// A sphere has no orientation that matters.
 Pose pose_of(const ColliderView& colliders, ColliderIndex i) {

@@ -47,7 +47,7 @@ double reach_of(const ColliderMotion& a, const ColliderSpin& spin_a, const Colli
 }
 
 void ColliderSet::note_new_shapes(const ShapeSet& shapes) {
-  grow_to(shapes.shapes().size(), shapes_);
+  grow_to(shapes.shapes().size(), shapes_, is_ball_);
   for (std::size_t k = shapes_.size(); k < shapes.shapes().size(); ++k) {
     const Shape& shape = shapes.shapes()[k];
     ShapeRecord record;
@@ -64,6 +64,7 @@ void ColliderSet::note_new_shapes(const ShapeSet& shapes) {
       record.radius = only.bounding_radius;
     }
     shapes_.push_back(record);
+    is_ball_.push_back(record.single_sphere ? 1 : 0);
   }
 }
 
@@ -72,10 +73,15 @@ void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
   chunks_.clear();
   unbounded_.clear();
   one_each_ = true;
+  all_spheres_movable_ = true;
   bool spheres = true;
   Place total;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (i % kBodiesPerChunk == 0) chunks_.push_back(total);
+    if (is_ball_[bodies.shape[i]] != 0) {
+      ++total.collider, ++total.bounded;
+      continue;
+    }
     const ShapeRecord& record = shapes_[bodies.shape[i]];
     one_each_ &= record.at_origin;
     if (record.planes > 0) {
@@ -86,10 +92,10 @@ void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
         ++at;
       }
     }
-    spheres &= record.single_sphere || record.planes == record.colliders;
+    spheres &= record.planes == record.colliders;
     total.collider += record.colliders;
     total.bounded += record.colliders - std::uint32_t{record.planes};
-    if (!record.single_sphere) total.solid += record.colliders;
+    total.solid += record.colliders;
   }
   balls_alone_ = spheres && !use_.boxes;
   in_place_ = unbounded_.empty() || balls_alone_;
@@ -108,26 +114,45 @@ void ColliderSet::make_step_room(const Place& total) {
   if (!in_place_) resize_kept(bounded, bounded_, bounded_key_, bounded_movable_, bounded_owner_, bounded_ball_);
 }
 
+/// What is the same for all, or as simple, is written column by column, which a compiler turns into vectors.
+void ColliderSet::name_spheres(const BodyView& bodies, std::size_t first, std::size_t last, std::size_t k) {
+  const std::size_t n = last - first;
+  std::uint64_t* const key = key_.data() + k;
+  BodyIndex* const body = body_.data() + k;
+  char* const movable = movable_.data() + k;
+  const BodyId* const id = bodies.id.data() + first;
+  const Motion* const motion = bodies.motion.data() + first;
+  for (std::size_t i = 0; i < n; ++i) key[i] = id[i] << kOrdinalBits;
+  for (std::size_t i = 0; i < n; ++i) body[i] = static_cast<BodyIndex>(first + i);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    movable[i] = motion[i] == Motion::dynamic;
+    count += motion[i] == Motion::dynamic;
+  }
+  if (count < n) all_spheres_movable_.store(false, std::memory_order_relaxed);
+  std::fill_n(ordinal_.data() + k, n, 0u);
+  std::fill_n(kind_.data() + k, n, ShapeKind::sphere);
+}
+
 void ColliderSet::place_spheres(const BodyView& bodies, std::size_t first, std::size_t last,
                                 std::span<const Vec3> velocity, const ReachRule& rule, Place& at) {
+  name_spheres(bodies, first, last, at.collider);
+  BoundingBall* const ball = ball_.data();
+  std::uint32_t* const primitive = primitive_.data();
+  double* const margin = margin_.data();
   for (std::size_t i = first; i < last; ++i) {
     const ShapeRecord shape = shapes_[bodies.shape[i]];
     const std::uint32_t k = at.collider;
     const ColliderMotion motion{bodies.position[i], shape.radius, velocity[i]};
-    ball_[k] = {motion.centre, motion.radius};
-    if (!one_each_) own_velocity_[k] = motion.velocity;
-    if (use_.sphere_poses) pose_[k] = {motion.centre, bodies.orientation[i]};
-    key_[k] = bodies.id[i] << kOrdinalBits;
-    body_[k] = static_cast<BodyIndex>(i);
-    primitive_[k] = shape.first_primitive;
-    ordinal_[k] = 0;
-    kind_[k] = ShapeKind::sphere;
-    movable_[k] = bodies.motion[i] == Motion::dynamic;
+    ball[k] = {motion.centre, motion.radius};
+    primitive[k] = shape.first_primitive;
     if (balls_alone_) {
-      margin_[k] = margin_of(motion, rule);
+      margin[k] = margin_of(motion, rule);
     } else {
       place_bounded(at, swept_sphere(motion, rule), margin_of(motion, rule));
     }
+    if (!one_each_) own_velocity_[k] = motion.velocity;
+    if (use_.sphere_poses) pose_[k] = {motion.centre, bodies.orientation[i]};
     ++at.collider;
     ++at.bounded;
   }
@@ -199,7 +224,7 @@ void ColliderSet::build(const ShapeSet& shapes, const BodyView& bodies, std::spa
     for (std::size_t i = first; i < last;) {
       // Spheres come in runs.
       std::size_t end = i;
-      while (end < last && shapes_[bodies.shape[end]].single_sphere) ++end;
+      while (end < last && is_ball_[bodies.shape[end]] != 0) ++end;
       place_spheres(bodies, i, end, velocity, rule, at);
       i = end;
       if (i == last) break;

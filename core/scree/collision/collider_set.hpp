@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -92,6 +93,8 @@ class ColliderSet {
   [[nodiscard]] bool one_each() const { return one_each_; }
   /// True when all but planes are spheres, each a body of its own, and bounded() has no boxes.
   [[nodiscard]] bool balls_alone() const { return balls_alone_; }
+  /// True when no sphere that is a body of its own belongs to a body that forces do not move.
+  [[nodiscard]] bool all_spheres_movable() const { return all_spheres_movable_; }
   [[nodiscard]] ColliderMotion motion(ColliderIndex i) const {
     return {ball_[i].centre, ball_[i].radius, velocity_[i]};
   }
@@ -148,6 +151,7 @@ class ColliderSet {
   void note_new_shapes(const ShapeSet& shapes);
   void count(const ShapeSet& shapes, const BodyView& bodies);
   void make_step_room(const Place& total);
+  void name_spheres(const BodyView& bodies, std::size_t first, std::size_t last, std::size_t k);
   void place_spheres(const BodyView& bodies, std::size_t first, std::size_t last, std::span<const Vec3> velocity,
                      const ReachRule& rule, Place& at);
   void place(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i, const Vec3& velocity, const Vec3& spin,
@@ -156,8 +160,10 @@ class ColliderSet {
 
   ColliderUse use_;
   std::vector<ShapeRecord> shapes_;  // of all shapes so far
+  std::vector<char> is_ball_;        // 1 for shapes that are a single sphere: what counting reads of most
   std::vector<Place> chunks_;        // where the bodies of each chunk begin
   bool one_each_ = true, balls_alone_ = false;
+  std::atomic<bool> all_spheres_movable_ = true;
   UninitialisedVector<std::uint64_t> key_;
   UninitialisedVector<BodyIndex> body_;
   UninitialisedVector<std::uint32_t> primitive_;

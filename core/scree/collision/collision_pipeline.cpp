@@ -6,6 +6,7 @@
 
 #include "scree/base/release.hpp"
 #include "scree/collision/collider_kind.hpp"
+#include "scree/collision/swept_spheres.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree {
@@ -22,23 +23,6 @@ constexpr std::size_t kManyBodies = std::size_t{1} << 16;
 
 /// Candidates ahead of the present one whose records are fetched into the cache.
 constexpr std::size_t kPrefetch = 16;
-
-/// True when the bounding spheres come within `reach` of each other.
-bool spheres_meet(const ColliderMotion& a, const ColliderMotion& b, double reach) {
-  const double radii = a.radius + b.radius + reach;
-  return squared_norm(b.centre - a.centre) <= radii * radii;
-}
-
-/// Of spheres that overlap by more than rounding, the boxes do.
-constexpr double kTouching = 1.0 - 1e-9;
-
-/// True when two spheres can meet within the step.
-bool swept_spheres_meet(const ColliderMotion& a, const ColliderMotion& b, double reach, const ReachRule& rule) {
-  const double touching = kTouching * (a.radius + b.radius);
-  if (squared_norm(b.centre - a.centre) <= touching * touching) return true;
-  // Boxes of spheres are cheaper to compute than to read.
-  return spheres_meet(a, b, reach) && overlap(swept_sphere(a, rule), swept_sphere(b, rule));
-}
 
 }  // namespace
 
@@ -61,43 +45,6 @@ void CollisionPipeline::bind_new_shapes() {
   if (count == bound_primitives_) return;
   for (NarrowPhase* phase : chain_) phase->bind(shapes_, bound_primitives_);
   bound_primitives_ = count;
-}
-
-ColliderPair* CollisionPipeline::keep_spheres(std::span<const CandidatePair> batch, ColliderPair* out) const {
-  const BoundingBall* const ball = colliders_.view().ball.data();
-  const char* const movable = colliders_.view().movable.data();
-  const Vec3* const velocity = colliders_.velocity().data();
-  // Several pairs side by side, which a compiler turns into vectors.
-  constexpr std::size_t kSide = 8;
-  std::array<double, kSide> distance2{}, radii{}, least{}, speed2{}, reach{};
-  for (std::size_t first = 0; first < batch.size(); first += kSide) {
-    const std::size_t count = std::min(kSide, batch.size() - first);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (first + k + kPrefetch < batch.size()) {
-        __builtin_prefetch(&ball[batch[first + k + kPrefetch].b]);
-        __builtin_prefetch(&velocity[batch[first + k + kPrefetch].b]);
-      }
-      const auto [a, b] = batch[first + k];
-      distance2[k] = squared_norm(ball[b].centre - ball[a].centre);
-      radii[k] = ball[a].radius + ball[b].radius;
-      least[k] = std::min(ball[a].radius, ball[b].radius);
-      speed2[k] = squared_norm(velocity[a] - velocity[b]);
-    }
-    // As reach_of_spheres() and swept_spheres_meet() have it.
-    for (std::size_t k = 0; k < kSide; ++k) {
-      reach[k] = rule_.dt * std::sqrt(speed2[k]) + rule_.slack * least[k] + rule_.skin;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto [a, b] = batch[first + k];
-      if (movable[a] == 0 && movable[b] == 0) continue;
-      const double touching = kTouching * radii[k];
-      if (distance2[k] <= touching * touching ||
-          swept_spheres_meet(colliders_.motion(a), colliders_.motion(b), reach[k], rule_)) {
-        *out++ = {a, b, reach[k]};
-      }
-    }
-  }
-  return out;
 }
 
 bool CollisionPipeline::meet(const CandidatePair& pair, double& reach) const {
