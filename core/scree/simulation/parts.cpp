@@ -29,6 +29,20 @@ void make_plugin(Part<Interface>& part, const PluginEntry& entry) {
   static_cast<void>(plugin.release());
 }
 
+/// The name that the scene gives a part, or its type. It names a group of checkpoints, where a slash would divide it.
+std::string name_of(const Options& core, const std::string& type) {
+  const std::vector<std::string> keys = core.names();
+  if (std::find(keys.begin(), keys.end(), "name") == keys.end() || core.text("name").empty()) return type;
+  const std::string& name = core.text("name");
+  const auto bad = std::ranges::find_if(name, [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' '; });
+  if (bad != name.end()) {
+    throw core.error("name", "is '" + name + "', which has " +
+                                 (*bad == '/' ? "a slash" : "a line break, a tab or another control character") +
+                                 " in it; letters, digits, spaces and other signs may stand in a name");
+  }
+  return name;
+}
+
 template <class Interface>
 Part<Interface> make_part(const SceneTable& table, const PluginCatalog& catalog, Options* core = nullptr) {
   const std::string kind = Interface::kKind;
@@ -48,10 +62,7 @@ Part<Interface> make_part(const SceneTable& table, const PluginCatalog& catalog,
 
   Part<Interface> part;
   part.info = {kind, type, type, entry.library, entry.version, table.location()};
-  const std::vector<std::string> own_names = own.names();
-  if (std::find(own_names.begin(), own_names.end(), "name") != own_names.end() && !own.text("name").empty()) {
-    part.info.name = own.text("name");
-  }
+  part.info.name = name_of(own, type);
   part.core = own;
   part.options = validate(table.without(core_keys), entry.parameters, part.info.label());
   part.options.set_type(type);

@@ -271,6 +271,18 @@ TEST(Simulation, no_two_observers_write_the_same_file) {
   EXPECT_NE(file.find("would both write the file 'x.csv'"), std::string::npos) << file;
 }
 
+// A name is a group in a checkpoint and a part of the names of files: a run must not die of it when it writes them.
+TEST(Simulation, a_name_with_a_slash_is_refused_where_it_stands) {
+  for (const char* part : {"[[observer]]\ntype = 'writer'", "[[force_field]]\ntype = 'push'"}) {
+    const auto named = [&](const std::string& name) { return refusal(scene(std::string{part} + "\nname = " + name)); };
+    EXPECT_EQ(named("'in and out (2) \xc3\xa9'"), "");
+    const std::string slash = named("'in/out'"), lines = named("\"in\\nout\"");
+    EXPECT_NE(slash.find("'name' is 'in/out', which has a slash in it"), std::string::npos) << slash;
+    EXPECT_EQ(slash.find("scene.toml:"), 0u) << slash;
+    EXPECT_NE(lines.find("control character"), std::string::npos) << lines;
+  }
+}
+
 TEST(Simulation, planes_cannot_move_by_forces) {
   const std::string text =
       scene("[shape.floor]\ntype = 'plane'\n[[body]]\nshape = 'floor'\nmaterial = 'stone'\nmotion = 'dynamic'\n");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace scree::granular {
@@ -11,6 +12,8 @@ constexpr double kStiffness = 2.25;            ///< of rolling over that of the 
 constexpr double kRollingInertia = 7.0 / 5.0;  ///< of a ball about a point of its surface, in m R^2
 constexpr double kSpinningInertia = 2.0 / 5.0;
 constexpr double kUpright = 1e-12;  ///< part of a square that the tangent plane must keep
+/// Part of an angular velocity below which its components are what rounding leaves, and have no direction.
+constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Elastic and plastic: stiffness, dashpot and limit of each lane.
 struct Springs {
@@ -30,10 +33,13 @@ void find_springs(const ContactBatch& __restrict batch, const ContactLanes& __re
 void roll_rigidly(ContactBatch& __restrict batch, const ContactLanes& __restrict lanes, const Lane& __restrict arm) {
   for (std::size_t k = 0; k < batch.count; ++k) {
     const double nx = batch.normal.x[k], ny = batch.normal.y[k], nz = batch.normal.z[k];
-    const double wn = batch.spin.x[k] * nx + batch.spin.y[k] * ny + batch.spin.z[k] * nz;
-    const double wx = batch.spin.x[k] - wn * nx, wy = batch.spin.y[k] - wn * ny, wz = batch.spin.z[k] - wn * nz;
-    const double speed = std::sqrt(wx * wx + wy * wy + wz * wz);
-    const double factor = speed > 0.0 ? -arm[k] * lanes.load[k] / speed : 0.0;
+    const double sx = batch.spin.x[k], sy = batch.spin.y[k], sz = batch.spin.z[k], wn = sx * nx + sy * ny + sz * nz;
+    const double px = sx - wn * nx, py = sy - wn * ny, pz = sz - wn * nz;
+    // Where bodies spin on the spot, rounding leaves a part along the normal, which the division would make large.
+    const double left = px * nx + py * ny + pz * nz;
+    const double wx = px - left * nx, wy = py - left * ny, wz = pz - left * nz;
+    const double speed = std::sqrt(wx * wx + wy * wy + wz * wz), whole = std::sqrt(sx * sx + sy * sy + sz * sz);
+    const double factor = speed > kRounding * whole ? -arm[k] * lanes.load[k] / speed : 0.0;
     batch.torque.x[k] = factor * wx, batch.torque.y[k] = factor * wy, batch.torque.z[k] = factor * wz;
   }
 }
@@ -170,7 +176,7 @@ void RollingResistance::spin(ContactBatch& batch, const ContactLanes& lanes, std
   if (spinning_ == Model::constant_directional) {
     for (std::size_t k = 0; k < batch.count; ++k) {
       const double w = spin_of(batch, k);
-      moment[k] = w == 0.0 ? 0.0 : -std::copysign(arm[k] * lanes.load[k], w);
+      moment[k] = std::abs(w) > kRounding * norm(batch.spin[k]) ? -std::copysign(arm[k] * lanes.load[k], w) : 0.0;
     }
     return add_moments(batch, moment);
   }

@@ -45,6 +45,23 @@ TEST(rolling_resistance, of_a_constant_moment_opposes_each_part_with_its_own_arm
   EXPECT_EQ(contact.rolling.history_size(), 0U);
 }
 
+// What rounding leaves of a spin in the tangent plane is no rolling, and what it leaves of a rolling along the normal no spin.
+TEST(rolling_resistance, of_a_constant_moment_takes_no_rounding_for_motion) {
+  One rolls{"rolling = \"constant_directional\""}, spins{"spinning = \"constant_directional\""};
+  for (int i = 0; i < 200; ++i) {
+    const double height = -0.995 + 0.01 * i, angle = 2.4 * i, across = std::sqrt(1.0 - height * height);
+    const Vec3 normal{across * std::cos(angle), across * std::sin(angle), height};
+    const Vec3 tangent{std::sin(angle), -std::cos(angle), 0.0};
+    for (One* contact : {&rolls, &spins}) contact->batch.normal.set(0, normal);
+    EXPECT_EQ(rolls.turn(20.0 * normal), Vec3{}) << i;
+    EXPECT_EQ(spins.turn(20.0 * tangent), Vec3{}) << i;
+    // A little rolling beside much spin: all of the moment lies in the tangent plane and against it.
+    const Vec3 torque = rolls.turn(20.0 * normal + 1e-9 * tangent);
+    EXPECT_LE(norm(torque + kArm * kLoad * tangent), 1e-4 * kArm * kLoad) << i;  // 20 x 2e-16 beside 1e-9, and some
+    EXPECT_LE(std::abs(dot(torque, normal)), 1e-15 * kArm * kLoad) << i;
+  }
+}
+
 TEST(rolling_resistance, acts_on_what_it_is_asked_to_alone) {
   One rolls{"rolling = \"constant_directional\""}, spins{"spinning = \"elastic_plastic\""}, none{""};
   EXPECT_EQ(rolls.turn({0, 0, 5.0}), Vec3{});
