@@ -42,34 +42,52 @@ double student_t(double confidence, std::size_t freedom) {
   return 0.5 * (low + high);
 }
 
+namespace {
+
+double weighted_mean(std::span<const double> values, std::span<const double> weights) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += weights[i] * values[i];
+  return sum / std::accumulate(weights.begin(), weights.end(), 0.0);
+}
+
+}  // namespace
+
 Estimate mean_with_interval(std::span<const double> values, double confidence) {
+  return mean_with_interval(values, std::vector<double>(values.size(), 1.0), confidence);
+}
+
+Estimate mean_with_interval(std::span<const double> values, std::span<const double> weights, double confidence) {
+  SCREE_REQUIRE(values.size() == weights.size(), "mean_with_interval: as many values as weights");
   if (values.empty()) return {kNone, kNone};
-  const auto n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  const double mean = weighted_mean(values, weights), all = std::accumulate(weights.begin(), weights.end(), 0.0);
   if (values.size() < 2) return {mean, kNone};
   double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, student_t(confidence, values.size() - 1) * std::sqrt(squares / (n - 1.0) / n)};
+  for (std::size_t i = 0; i < values.size(); ++i) squares += weights[i] * (values[i] - mean) * (values[i] - mean);
+  const auto freedom = static_cast<double>(values.size() - 1);
+  return {mean, student_t(confidence, values.size() - 1) * std::sqrt(squares / freedom / all)};
 }
 
 Estimate slope(std::span<const double> x, std::span<const double> y) {
-  SCREE_REQUIRE(x.size() == y.size(), "slope: as many x as y");
+  return slope(x, y, std::vector<double>(x.size(), 1.0));
+}
+
+Estimate slope(std::span<const double> x, std::span<const double> y, std::span<const double> weights) {
+  SCREE_REQUIRE(x.size() == y.size() && x.size() == weights.size(), "slope: as many x as y and weights");
   if (x.size() < 2) return {kNone, kNone};
-  const auto n = static_cast<double>(x.size());
-  const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n, my = std::accumulate(y.begin(), y.end(), 0.0) / n;
+  const double mx = weighted_mean(x, weights), my = weighted_mean(y, weights);
   double xx = 0.0, xy = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mx) * (x[i] - mx);
-    xy += (x[i] - mx) * (y[i] - my);
+    xx += weights[i] * (x[i] - mx) * (x[i] - mx);
+    xy += weights[i] * (x[i] - mx) * (y[i] - my);
   }
   if (xx <= 0.0) return {kNone, kNone};
   const double rise = xy / xx;
   double left = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double r = y[i] - my - rise * (x[i] - mx);
-    left += r * r;
+    left += weights[i] * r * r;
   }
-  return {rise, x.size() > 2 ? std::sqrt(left / (n - 2.0) / xx) : kNone};
+  return {rise, x.size() > 2 ? std::sqrt(left / (static_cast<double>(x.size()) - 2.0) / xx) : kNone};
 }
 
 namespace {

@@ -19,8 +19,16 @@ struct Estimate {
 /// The mean of independent values and the half width of its confidence interval as `error`.
 [[nodiscard]] Estimate mean_with_interval(std::span<const double> values, double confidence);
 
+/// The same of values whose variances go with the inverse of their weights, such as means over times of unequal length;
+/// with equal weights it is the one above. As many weights > 0 as values.
+[[nodiscard]] Estimate mean_with_interval(std::span<const double> values, std::span<const double> weights,
+                                          double confidence);
+
 /// Slope of the least-squares line and its standard error. As many x as y.
 [[nodiscard]] Estimate slope(std::span<const double> x, std::span<const double> y);
+
+/// The same of y whose variances go with the inverse of their weights.
+[[nodiscard]] Estimate slope(std::span<const double> x, std::span<const double> y, std::span<const double> weights);
 
 /// y = amplitude exp(-(t - begin) / time_constant), by nonlinear least squares over equally weighted points.
 struct Decay {

@@ -43,6 +43,19 @@ TEST(statistics, slope_is_that_of_a_line_and_its_error_that_of_the_textbook) {
   EXPECT_NEAR(slope(x, bent).error, std::sqrt(0.02), 1e-15);
 }
 
+// By hand: mean 0.5 and 1 in x; squares 0.25 + 2 x 0.25 + 0.25 = 1; two degrees of freedom for the mean, one for the line.
+TEST(statistics, weights_are_inverse_variances_and_only_their_ratios_count) {
+  const std::vector<double> x{0, 1, 2}, y{0, 1, 0}, w{1, 2, 1}, tenfold{10, 20, 10}, equal{3, 3, 3};
+  for (const std::vector<double>& weights : {w, tenfold}) {
+    EXPECT_DOUBLE_EQ(mean_with_interval(y, weights, 0.95).value, 0.5);
+    EXPECT_NEAR(mean_with_interval(y, weights, 0.95).error, 4.303 * std::sqrt(1.0 / 2.0 / 4.0), 2e-4);
+    EXPECT_NEAR(slope(x, y, weights).value, 0.0, 1e-15);
+    EXPECT_DOUBLE_EQ(slope(x, y, weights).error, std::sqrt(1.0 / 1.0 / 2.0));
+  }
+  EXPECT_DOUBLE_EQ(mean_with_interval(y, equal, 0.9).error, mean_with_interval(y, 0.9).error);
+  EXPECT_DOUBLE_EQ(slope(x, y, equal).error, slope(x, y).error);
+}
+
 TEST(statistics, find_the_decay_that_was_put_in) {
   std::vector<double> t, y;
   for (int k = 0; k < 40; ++k) {

@@ -76,4 +76,14 @@ double AxisMap::operator()(double value) const {
   return begin_ + (end_ - begin_) * (v - first_) / (last_ - first_);
 }
 
+std::pair<double, double> range_with(std::pair<double, double> least, const std::vector<double>& values) {
+  constexpr double kSpare = 1.05;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    if (value > least.second) least.second = kSpare * value;
+    if (value < least.first) least.first = value < 0.0 ? kSpare * value : value / kSpare;
+  }
+  return least;
+}
+
 }  // namespace scree::plot

@@ -38,4 +38,7 @@ class AxisMap {
 /// The range that shows the values: widened when they are equal, rounded to whole decades on a logarithmic scale.
 [[nodiscard]] std::pair<double, double> range_of(const std::vector<double>& values, Scale scale, bool from_zero);
 
+/// The range `least`, or a wider one that shows all values with a twentieth of their size to spare.
+[[nodiscard]] std::pair<double, double> range_with(std::pair<double, double> least, const std::vector<double>& values);
+
 }  // namespace scree::plot

@@ -45,29 +45,30 @@ void Canvas::set(Colour colour) {
   cairo_set_source_rgba(context_->cairo.get(), colour.red, colour.green, colour.blue, colour.opacity);
 }
 
-void Canvas::stroke(const std::vector<Point>& points, bool closed, Colour colour, double width, bool dashed) {
+void Canvas::draw(const std::vector<Point>& points, bool closed, Colour colour, double width, Stroke stroke) {
   cairo_t* cairo = context_->cairo.get();
-  constexpr std::array kDashes{5.0, 4.0};
+  constexpr std::array kDashes{5.0, 4.0}, kDots{1.5, 3.0};
   set(colour);
   cairo_set_line_width(cairo, width);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-  if (dashed) cairo_set_dash(cairo, kDashes.data(), static_cast<int>(kDashes.size()), 0.0);
+  const std::array<double, 2>& pattern = stroke == Stroke::dotted ? kDots : kDashes;
+  if (stroke != Stroke::solid) cairo_set_dash(cairo, pattern.data(), static_cast<int>(pattern.size()), 0.0);
   for (const auto& [x, y] : points) cairo_line_to(cairo, x, y);
   if (closed) cairo_close_path(cairo);
   cairo_stroke(cairo);
   cairo_set_dash(cairo, nullptr, 0, 0.0);
 }
 
-void Canvas::line(Point from, Point to, Colour colour, double width, bool dashed) {
-  stroke({from, to}, false, colour, width, dashed);
+void Canvas::line(Point from, Point to, Colour colour, double width, Stroke stroke) {
+  draw({from, to}, false, colour, width, stroke);
 }
 
-void Canvas::polyline(const std::vector<Point>& points, Colour colour, double width, bool dashed) {
-  stroke(points, false, colour, width, dashed);
+void Canvas::polyline(const std::vector<Point>& points, Colour colour, double width, Stroke stroke) {
+  draw(points, false, colour, width, stroke);
 }
 
-void Canvas::outline(const std::vector<Point>& points, Colour colour, double width, bool dashed) {
-  stroke(points, true, colour, width, dashed);
+void Canvas::outline(const std::vector<Point>& points, Colour colour, double width, Stroke stroke) {
+  draw(points, true, colour, width, stroke);
 }
 
 void Canvas::fill(const std::vector<Point>& points, Colour colour) {

@@ -17,6 +17,7 @@ struct Colour {
 };
 
 enum class Anchor { left, middle, right };
+enum class Stroke { solid, dashed, dotted };
 
 /// Drawing calls. The origin is the top left corner, y goes down, lengths are in px.
 class Canvas {
@@ -27,10 +28,10 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  void line(Point from, Point to, Colour colour, double width, bool dashed = false);
-  void polyline(const std::vector<Point>& points, Colour colour, double width, bool dashed = false);
+  void line(Point from, Point to, Colour colour, double width, Stroke stroke = Stroke::solid);
+  void polyline(const std::vector<Point>& points, Colour colour, double width, Stroke stroke = Stroke::solid);
   /// A polyline back to its first point.
-  void outline(const std::vector<Point>& points, Colour colour, double width, bool dashed = false);
+  void outline(const std::vector<Point>& points, Colour colour, double width, Stroke stroke = Stroke::solid);
   void fill(const std::vector<Point>& points, Colour colour);
   void disc(Point centre, double radius, Colour colour);
   /// `y` is the baseline; with `upward` the text reads from the bottom to the top.
@@ -48,7 +49,7 @@ class Canvas {
   struct Context;
   explicit Canvas(std::unique_ptr<Context> context);
   void set(Colour colour);
-  void stroke(const std::vector<Point>& points, bool closed, Colour colour, double width, bool dashed);
+  void draw(const std::vector<Point>& points, bool closed, Colour colour, double width, Stroke stroke);
   std::unique_ptr<Context> context_;
 };
 

@@ -1,6 +1,7 @@
 #include "plot/figure.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "plot/axis_map.hpp"
 #include "plot/canvas.hpp"
@@ -17,6 +18,17 @@ using Point = Canvas::Point;
 constexpr double kSmall = 12.0, kNormal = 13.0, kLarge = 15.0;  // text sizes [px]
 constexpr double kFillOpacity = 0.22;
 constexpr double kSwatch = 22.0, kPad = 8.0, kLegendRow = 19.0;  // of the legend [px]
+
+/// How a series is told from the others: colours first, then strokes.
+struct Pen {
+  Colour colour;
+  Stroke stroke;
+};
+
+Pen pen(std::size_t series) {
+  constexpr std::array kStrokes{Stroke::solid, Stroke::dashed, Stroke::dotted};
+  return {kColours[series % kColours.size()], kStrokes[series / kColours.size() % kStrokes.size()]};
+}
 
 Colour with_opacity(Colour colour, double opacity) { return {colour.red, colour.green, colour.blue, opacity}; }
 
@@ -35,7 +47,7 @@ class Painter {
     titles();
     grid();
     canvas_.clip({left_, top_}, {right_, bottom_});
-    for (std::size_t i = 0; i < figure_.series.size(); ++i) series(figure_.series[i], kColours[i % kColours.size()]);
+    for (std::size_t i = 0; i < figure_.series.size(); ++i) series(figure_.series[i], pen(i));
     canvas_.clip_end();
     guides();
     canvas_.polyline({{left_, top_}, {left_, bottom_}, {right_, bottom_}, {right_, top_}, {left_, top_}}, kInk, 1.0);
@@ -79,11 +91,11 @@ class Painter {
     }
   }
 
-  void series(const Series& s, Colour colour) {
-    if (s.style == SeriesStyle::steps) return steps(s, colour);
+  void series(const Series& s, const Pen& pen) {
+    if (s.style == SeriesStyle::steps) return steps(s, pen.colour);
     std::vector<Point> run;
     const auto end_run = [&] {
-      if (s.style == SeriesStyle::line && run.size() > 1) canvas_.polyline(run, colour, 1.8);
+      if (s.style == SeriesStyle::line && run.size() > 1) canvas_.polyline(run, pen.colour, 1.8, pen.stroke);
       run.clear();
     };
     for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -92,9 +104,15 @@ class Painter {
         continue;
       }
       run.emplace_back(x_(s.x[i]), y_(s.y[i]));
-      if (s.style == SeriesStyle::points) canvas_.disc(run.back(), 3.0, colour);
+      if (s.style == SeriesStyle::points) point(run.back(), pen);
     }
     end_run();
+  }
+
+  // Full, then empty, then small.
+  void point(Point at, const Pen& pen) {
+    canvas_.disc(at, pen.stroke == Stroke::dotted ? 1.8 : 3.0, pen.colour);
+    if (pen.stroke == Stroke::dashed) canvas_.disc(at, 1.6, kPaper);
   }
 
   void steps(const Series& s, Colour colour) {
@@ -112,7 +130,7 @@ class Painter {
   void guides() {
     for (const VerticalLine& line : figure_.lines) {
       const double x = x_(line.x);
-      canvas_.line({x, top_}, {x, bottom_}, kGuide, 1.3, true);
+      canvas_.line({x, top_}, {x, bottom_}, kGuide, 1.3, Stroke::dashed);
       if (!line.label.empty()) canvas_.text({x + 13, bottom_ - 8}, line.label, kSmall, Anchor::left, false, true);
     }
     for (const Region& region : figure_.regions) {
@@ -140,18 +158,18 @@ class Painter {
       const Series& s = figure_.series[i];
       if (s.label.empty()) continue;
       const auto [x, y] = legend_places_[i];
-      swatch(s.style, {x, y}, kSwatch, kColours[i % kColours.size()]);
+      swatch(s.style, {x, y}, kSwatch, pen(i));
       canvas_.text({x + kSwatch + kPad, y + 4}, s.label, kSmall, Anchor::left);
     }
   }
 
-  void swatch(SeriesStyle style, Point at, double width, Colour colour) {
+  void swatch(SeriesStyle style, Point at, double width, const Pen& pen) {
     const auto [x, y] = at;
-    if (style == SeriesStyle::points) return canvas_.disc({x + 0.5 * width, y}, 3.0, colour);
-    if (style == SeriesStyle::line) return canvas_.line({x, y}, {x + width, y}, colour, 1.8);
+    if (style == SeriesStyle::points) return point({x + 0.5 * width, y}, pen);
+    if (style == SeriesStyle::line) return canvas_.line({x, y}, {x + width, y}, pen.colour, 1.8, pen.stroke);
     const std::vector<Point> box{{x, y - 5}, {x + width, y - 5}, {x + width, y + 5}, {x, y + 5}, {x, y - 5}};
-    canvas_.fill(box, with_opacity(colour, kFillOpacity));
-    canvas_.polyline(box, colour, 1.5);
+    canvas_.fill(box, with_opacity(pen.colour, kFillOpacity));
+    canvas_.polyline(box, pen.colour, 1.5);
   }
 
   const Figure& figure_;

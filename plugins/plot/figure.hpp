@@ -50,7 +50,8 @@ struct Region {
   std::string label;
 };
 
-/// A plot. Colours follow the order of the series (Okabe and Ito 2008, readable with colour blindness).
+/// A plot. Colours follow the order of the series (Okabe and Ito 2008, readable with colour blindness); after six they come
+/// again with dashes, or points as rings, and then with dots, or small points.
 struct Figure {
   std::string title;
   std::string note;  ///< small, under the title

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 #include "plot/axis_map.hpp"
 #include "plot/figure.hpp"
@@ -64,6 +65,14 @@ TEST(range_of, shows_all_values_and_is_never_empty) {
   EXPECT_NEAR(high, 100.0, 1e-12);
 }
 
+TEST(range_with, is_the_least_range_or_one_that_shows_all_values) {
+  EXPECT_EQ(range_with({0.0, 1.1}, {0.3, NAN, 1.0}), (std::pair{0.0, 1.1}));
+  const auto [low, high] = range_with({0.0, 1.1}, {-2.0, 0.5, 1.4, INFINITY});
+  EXPECT_LT(low, -2.0);
+  EXPECT_GT(high, 1.4);
+  EXPECT_LT(high, 1.5);
+}
+
 TEST(axis_map, maps_the_ends_and_the_middle) {
   const AxisMap linear{Scale::linear, {2.0, 4.0}, 100.0, 300.0};
   EXPECT_DOUBLE_EQ(linear(3.0), 200.0);
@@ -90,6 +99,20 @@ TEST_F(FigureFilesTest, are_a_png_of_the_right_size_and_an_svg_that_is_xml) {
       "assert tree.parse(sys.argv[1]).getroot().tag.endswith('svg')\" " +
       (folder / "test.svg").string();
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+// Six colours, each with three strokes; the legend shows each once more.
+TEST_F(FigureFilesTest, tell_eighteen_series_apart) {
+  figure.series.clear();
+  for (int k = 0; k < 18; ++k) figure.series.push_back({std::to_string(k), SeriesStyle::line, {0, 1}, {0, 1.0 * k}});
+  write_figure(figure, folder / "many");
+  const std::string svg = read(folder / "many.svg");
+  std::set<std::string> pens;
+  const std::string line = "style=\"fill:none;stroke-width:1.8;";
+  for (std::size_t at = 0; (at = svg.find(line, at)) != std::string::npos; ++at) {
+    pens.insert(svg.substr(at, svg.find('"', at + line.size()) - at));
+  }
+  EXPECT_EQ(pens.size(), 18u);
 }
 
 TEST_F(FigureFilesTest, are_the_same_for_the_same_figure) {

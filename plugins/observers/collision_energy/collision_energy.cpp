@@ -23,6 +23,20 @@ struct Kind {
   const char* name;
   LogHistogram PairSpectra::*bins;
 };
+/// Those that a figure can tell apart, in the order of the table.
+std::vector<const PairSpectra*> most_frequent(const std::vector<PairSpectra>& pairs) {
+  constexpr std::size_t kMost = 6;
+  std::vector<const PairSpectra*> shown;
+  for (const PairSpectra& pair : pairs) {
+    if (pair.normal.total_count() > 0) shown.push_back(&pair);
+  }
+  if (shown.size() <= kMost) return shown;
+  std::ranges::stable_sort(shown, std::greater{}, [](const PairSpectra* p) { return p->normal.total_count(); });
+  shown.resize(kMost);
+  std::ranges::sort(shown);  // they lie in one array
+  return shown;
+}
+
 constexpr std::array kKinds{Kind{"normal", &PairSpectra::normal}, Kind{"tangential", &PairSpectra::tangential},
                             Kind{"dissipated", &PairSpectra::dissipated}};
 
@@ -63,13 +77,14 @@ void CollisionEnergy::setup(SceneServices& services, const std::filesystem::path
 }
 
 void CollisionEnergy::observe(const Observation& now, Attributes&) {
+  end_interval(row_due_);
   ended_.clear();
   book_.look(now.bodies, now.contacts, ended_);
   if (now.time >= from_) {
     observed_ += now.dt;
     for (const Collision& collision : ended_) count(collision);
   }
-  if (now.step % every_ == 0) end_interval(now.time);
+  if (now.step % every_ == 0) row_due_ = now.time;
 }
 
 void CollisionEnergy::count(const Collision& collision) {
@@ -129,7 +144,8 @@ void CollisionEnergy::write_figure() const {
   figure.note = fmt::format("{:.4g} s; n: energy along the normal at impact, d: dissipated", observed_);
   figure.x = {"energy of a collision [J]", plot::Scale::logarithmic};
   figure.y = {"collisions per second and bin [1/s]", plot::Scale::logarithmic};
-  for (const PairSpectra& pair : spectra_.pairs()) {
+  for (const PairSpectra* shown : most_frequent(spectra_.pairs())) {
+    const PairSpectra& pair = *shown;
     for (const auto& [bins, word] : {std::pair{&pair.normal, " (n)"}, std::pair{&pair.dissipated, " (d)"}}) {
       plot::Series series{pair.name + word, plot::SeriesStyle::line, {}, {}};
       for (std::size_t k = 0; k < bins->bins(); ++k) {
@@ -167,7 +183,7 @@ void CollisionEnergy::save(StateWriter& out) const {
   spectra_.save(*out.group("spectra"));
   series_.save(*out.group("series"));
   out.write("sums", std::span<const double>{std::array{sums_.collisions, sums_.normal, sums_.tangential,
-                                                       sums_.dissipated, began_, observed_, slow_}});
+                                                       sums_.dissipated, began_, observed_, slow_, row_due_}});
 }
 
 void CollisionEnergy::load(const StateReader& in) {
@@ -179,6 +195,7 @@ void CollisionEnergy::load(const StateReader& in) {
   began_ = sums.at(4);
   observed_ = sums.at(5);
   slow_ = sums.at(6);
+  row_due_ = sums.at(7);
 }
 
 }  // namespace scree

@@ -48,6 +48,7 @@ class CollisionEnergy final : public Observer {
   Sums sums_;
   SeriesTable series_;
   double began_ = 0.0;     // the interval [s]
+  double row_due_ = 0.0;   // end of an interval whose row is not written yet, since the run may end with it [s]
   double observed_ = 0.0;  // time that the spectra are of [s]
   double slow_ = 0.0;      // collisions that were left out as too slow [1]
   std::vector<Collision> ended_;

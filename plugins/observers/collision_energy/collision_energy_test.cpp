@@ -147,6 +147,30 @@ TEST_F(CollisionEnergyTest, points_of_one_impact_share_its_energy) {
   EXPECT_NEAR(pair_of(*part, "floor - glass").normal.total_weight(), 0.5 * bodies.mass[1], 1e-15);
 }
 
+// Ends with an interval: what is still in contact is in the last row as it is in the spectra.
+TEST_F(CollisionEnergyTest, the_series_and_the_spectra_have_the_same_collisions) {
+  for (const std::uint64_t end : {8U, 10U}) {
+    const auto part = make("interval = 0.004", folder);
+    const double m = bodies.mass[1];
+    for (std::uint64_t step = 1; step <= end; ++step) {
+      if (step == 2 || step == 4) touch(0, 1, {2.0 * m, 0, 0}, {-1, 0, 0}, {1, 0, 0});
+      if (step >= end - 1) touch(0, 2, {2.0 * m, 0, 0}, {-1, 0, 0}, {1, 0, 0});
+      look(*part, step);
+    }
+    finish(*part, end);
+    std::istringstream rows{read("collision_energy_series.csv")};
+    double collisions = 0.0, last = 0.0;
+    std::string row;
+    std::getline(rows, row);
+    while (std::getline(rows, row)) {
+      last = std::stod(row);
+      collisions += std::stod(row.substr(row.find(',') + 1));
+    }
+    EXPECT_EQ(collisions, 3.0);
+    EXPECT_DOUBLE_EQ(last, 1e-3 * static_cast<double>(end));
+  }
+}
+
 TEST_F(CollisionEnergyTest, a_resumed_run_writes_what_one_run_writes) {
   const char* options = "interval = 0.004\nfrom = 0.003";
   const auto whole = make(options, folder), first = make(options), second = make(options, folder / "second");

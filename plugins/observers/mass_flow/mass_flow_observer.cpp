@@ -41,6 +41,11 @@ void MassFlowObserver::setup(SceneServices& services, const std::filesystem::pat
   frame_ = Frame{options_, services};
   schedule_ = Schedule{options_, services.time_step()};
   stem_ = Stem{"mass_flow", services, results};
+  if (options_.number("fit_from") >= services.end_time()) {
+    services.log(
+        fmt::format("mass_flow: fit_from = {:g} s is not before the end of the run at {:g} s: no constant rate",
+                    options_.number("fit_from"), services.end_time()));
+  }
   materials_ = services.materials().names();
   passed_.assign(materials_.size(), {});
   net_before_.assign(materials_.size(), 0.0);
@@ -139,6 +144,13 @@ FlowRate MassFlowObserver::rate_of(const std::string& column) const {
                        static_cast<std::size_t>(options_.integer("blocks")), options_.number("confidence"));
 }
 
+/// A sentence when no interval lies within the window of the fit; else nothing.
+std::string MassFlowObserver::why_no_rate() const {
+  if (series_.rows() == 0 || rate_of("mass_rate").blocks > 0) return {};
+  return fmt::format("no constant rate: no interval from fit_from = {:g} s on lies within the window and the run",
+                     options_.number("fit_from"));
+}
+
 plot::Figure MassFlowObserver::rates() const {
   plot::Figure figure;
   figure.title = "Mass flow";
@@ -150,6 +162,7 @@ plot::Figure MassFlowObserver::rates() const {
   figure.series.push_back(
       {"over an interval", plot::SeriesStyle::line, std::move(middle), series_.column("mass_rate")});
   const FlowRate fit = rate_of("mass_rate");
+  figure.note = why_no_rate();
   if (!std::isfinite(fit.rate.value)) return figure;
   figure.note =
       fmt::format("{:.4g} +- {:.2g} kg/s from {:g} s to {:g} s ({:g} % confidence, {} blocks)", fit.rate.value,
@@ -191,6 +204,7 @@ void MassFlowObserver::finish(const Observation& last) {
 std::vector<ReportTable> MassFlowObserver::report() const {
   ReportTable table;
   table.title = "Mass flow" + frame_.label();
+  if (const std::string why = why_no_rate(); !why.empty()) table.title += "; " + why;
   table.header = {"material",    "forward",       "backward",   "forward [kg]", "backward [kg]",
                   "rate [kg/s]", "drift [kg/s2]", "window [s]", "blocks"};
   const auto plus_minus = [](const Estimate& estimate) {
@@ -200,7 +214,8 @@ std::vector<ReportTable> MassFlowObserver::report() const {
     const FlowRate fit = rate_of(column);
     table.rows.push_back({name, fmt::format("{}", passed.number_forward), fmt::format("{}", passed.number_backward),
                           fmt::format("{:.6g}", passed.mass_forward), fmt::format("{:.6g}", passed.mass_backward),
-                          plus_minus(fit.rate), plus_minus(fit.drift), fmt::format("{:g} to {:g}", fit.from, fit.to),
+                          plus_minus(fit.rate), plus_minus(fit.drift),
+                          fit.blocks > 0 ? fmt::format("{:g} to {:g}", fit.from, fit.to) : "none",
                           fmt::format("{}", fit.blocks)});
   };
   for (std::size_t m = 0; m < passed_.size(); ++m) {

@@ -50,6 +50,7 @@ class MassFlowObserver final : public Observer {
   void end_interval(double time);
   [[nodiscard]] Passed passed_by_all() const;
   [[nodiscard]] FlowRate rate_of(const std::string& column) const;
+  [[nodiscard]] std::string why_no_rate() const;
   [[nodiscard]] plot::Figure rates() const;
   [[nodiscard]] plot::Figure totals() const;
 

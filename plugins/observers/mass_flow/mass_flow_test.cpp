@@ -148,6 +148,19 @@ TEST_F(MassFlowTest, takes_its_first_rate_from_where_it_began_to_look) {
   EXPECT_NEAR(std::stod(rows[1][6]), 50.0, 1e-9);  // 0.5 kg in every step of 0.01 s
 }
 
+TEST_F(MassFlowTest, says_why_there_is_no_constant_rate) {
+  services.end = 0.2;
+  const auto observer = make(std::string{kFalling} + "fit_from = 100.0");
+  for (std::uint64_t step = 1; step <= 20; ++step) observer->observe(at(step), services.attributes());
+  observer->finish(at(20));
+  ASSERT_EQ(services.log_lines().size(), 1u);
+  EXPECT_NE(services.log_lines()[0].find("fit_from = 100 s is not before the end of the run at 0.2 s"),
+            std::string::npos);
+  const ReportTable table = observer->report().front();
+  EXPECT_NE(table.title.find("no constant rate"), std::string::npos) << table.title;
+  EXPECT_EQ(table.rows.back()[7], "none");
+}
+
 TEST_F(MassFlowTest, refuses_a_window_that_ends_before_it_begins) {
   EXPECT_NE(refusal(std::string{kFalling} + "fit_from = 1.0\nfit_to = 0.5").find("later than fit_from"),
             std::string::npos);

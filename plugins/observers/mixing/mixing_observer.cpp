@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "plot/axis_map.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 
@@ -128,6 +129,7 @@ plot::Figure MixingObserver::figure() const {
   for (const auto& [name, label] : {std::pair{kLacey, "Lacey, by cells"}, std::pair{kNeighbours, "by neighbours"}}) {
     if (name == kNeighbours && !neighbours_wanted_) continue;
     figure.series.push_back({label, plot::SeriesStyle::points, time, series_.column(name)});
+    figure.y.range = plot::range_with(*figure.y.range, figure.series.back().y);
     const Decay decay = decay_of(name);
     if (!decay.found) continue;
     plot::Series curve{

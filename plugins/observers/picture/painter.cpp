@@ -83,7 +83,7 @@ class Painter {
   void wall_part(const Silhouette& part) {
     const std::vector<Point> outline = corners(part);
     if (!part.hollow) canvas_.fill(outline, part.collides ? kWall : kGhost);
-    canvas_.outline(outline, kEdge, 1.2, !part.collides);
+    canvas_.outline(outline, kEdge, 1.2, part.collides ? plot::Stroke::solid : plot::Stroke::dashed);
   }
 
   void paint_grain(const Grain& grain) {
@@ -160,7 +160,8 @@ class Painter {
     const auto [to_x, to_y] = page(m.to);
     const double dx = to_x - x, dy = to_y - y, length = std::hypot(dx, dy);
     if (length <= 0.0) return;
-    canvas_.line({x, y}, {to_x, to_y}, plot::kGuide, 1.2, m.divisions == 1);
+    canvas_.line({x, y}, {to_x, to_y}, plot::kGuide, 1.2,
+                 m.divisions == 1 ? plot::Stroke::dashed : plot::Stroke::solid);
     for (int k = 0; k <= m.divisions && m.divisions > 1; ++k) {
       const double px = x + dx * k / m.divisions, py = y + dy * k / m.divisions;
       canvas_.line({px, py}, {px - kTick * dy / length, py + kTick * dx / length}, plot::kGuide, 1.0);

@@ -18,9 +18,13 @@ struct FaceOptions {
                          ///< simple primitives, while meshes and hulls keep their faces
 };
 
+/// A map divides into no more faces than that; each takes some 250 bytes.
+inline constexpr std::size_t kMostFaces = 1'000'000;
+
 /// Faces of all primitives that collide, one range after the other.
 class FaceMap {
  public:
+  /// @throws TooManyFaces before they are made.
   FaceMap(const ShapeSet& shapes, const Shape& shape, const FaceOptions& options);
 
   [[nodiscard]] std::size_t size() const { return area_.size(); }
@@ -40,12 +44,24 @@ class FaceMap {
     std::size_t first = 0;               // face
   };
 
+  void append(const Part& part, std::uint32_t primitive);
+
   std::vector<Part> parts_;  // by primitive
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;
   std::vector<double> area_;
   std::vector<std::uint32_t> primitive_;
 };
+
+/// Thrown in place of dividing into more than kMostFaces.
+struct TooManyFaces {
+  double count = 0.0;        ///< that they would be, about [1]
+  double proposed = 0.0;     ///< a `largest` that is possible [m]; 0: they are too many undivided
+  std::size_t possible = 0;  ///< faces with that
+};
+
+/// The triangles that divided() would make, at most `most` + 1.
+[[nodiscard]] std::size_t count_divided(const TriangleMesh& mesh, double largest, std::size_t most);
 
 /// The mesh with every triangle halved across its longest edge until none is longer than `largest` [m]. Total area stays.
 [[nodiscard]] TriangleMesh divided(const TriangleMesh& mesh, double largest);

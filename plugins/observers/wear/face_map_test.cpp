@@ -41,6 +41,33 @@ TEST(face_map, division_keeps_the_area_and_bounds_the_edges) {
   }
 }
 
+// A cube of 0.12 m at 0.05 mm: halving legs of 0.12 m down to longest edges below 0.05 mm makes tens of millions. Each doubling
+// of the edge is a quarter of the faces: 0.0002 has 2^22 or so, so that the proposal is above that.
+TEST(face_map, what_would_be_too_many_faces_is_refused_before_they_are_made) {
+  const std::vector<PrimitiveData> box{simple(ShapeKind::box, {0.06, 0.06, 0.06})};
+  try {
+    (void)map_of(box, {64, 1.0, 5e-5});
+    FAIL() << "not refused";
+  } catch (const TooManyFaces& many) {
+    // Right triangles halve exactly: legs of 0.12 m / 2^k have hypotenuses of 0.12 sqrt(2) / 2^k, and 2 x 4^k are on a side.
+    const double k = std::ceil(std::log2(0.12 * std::numbers::sqrt2 / 5e-5));
+    EXPECT_GT(many.count, 0.4 * 12.0 * std::pow(4.0, k));  // half of them where legs, not hypotenuses, end it
+    EXPECT_LT(many.count, 1.1 * 12.0 * std::pow(4.0, k));
+    EXPECT_GT(many.possible, kMostFaces / 5);
+    EXPECT_EQ(map_of(box, {64, 1.0, many.proposed}).size(), many.possible);
+  }
+  EXPECT_THROW((void)map_of({simple(ShapeKind::sphere, {0.1, 0, 0})}, {2048, 1.0, 0.0}), TooManyFaces);
+}
+
+TEST(face_map, faces_are_counted_as_they_are_made) {
+  const TriangleMesh mesh{{{0, 0, 0}, {1.3, 0.2, 0}, {0.4, 2.1, 0.7}, {-0.3, 0.6, 1.9}},
+                          {{0, 1, 2}, {0, 2, 3}, {1, 2, 3}}};
+  for (const double largest : {5.0, 1.0, 0.3, 0.05}) {
+    EXPECT_EQ(count_divided(mesh, largest, 1'000'000), divided(mesh, largest).triangles.size());
+  }
+  EXPECT_EQ(count_divided(mesh, 1e-4, 1000), 1001u);
+}
+
 // The nearest face holds the point: its centroid is within an edge of it, whatever the side of the box.
 TEST(face_map, a_point_is_on_the_face_that_is_found_for_it) {
   const double edge = 0.02;

@@ -1,5 +1,7 @@
 #include "wear_observer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -44,7 +46,7 @@ std::vector<Parameter> WearObserver::parameters() {
           "extent, while meshes and hulls keep their faces")
           .above(0.0)
           .optional(),
-      Parameter::integer("segments", "of a full circle of round shapes").at_least(8).by_default(64),
+      Parameter::integer("segments", "of a full circle of round shapes").at_least(8).at_most(512).by_default(64),
       Parameter::number("plane_size", "m",
                         "edge of the square that stands for an unbounded plane; wear beyond it counts "
                         "on the nearest face")
@@ -77,13 +79,28 @@ void WearObserver::setup(SceneServices& services, const std::filesystem::path& r
   if (!results.empty()) table_.open(results / (stem_ + ".csv"));
 }
 
+std::unique_ptr<FaceMap> WearObserver::map_of(const Shape& shape, const std::string& body) const {
+  try {
+    return std::make_unique<FaceMap>(*shapes_, shape, face_options_);
+  } catch (const TooManyFaces& many) {
+    const std::string what = fmt::format(
+        "the surface of '{}' is divided into about {:.2g} faces, more than the {} that are "
+        "possible; ",
+        body, many.count, kMostFaces);
+    throw options_.error(
+        options_.has("largest_face") ? "largest_face" : "bodies",
+        "is refused: " + what +
+            (many.proposed > 0.0 ? fmt::format("with largest_face = {:.3g} m they are {}", many.proposed, many.possible)
+                                 : "take fewer segments or a coarser mesh"));
+  }
+}
+
 void WearObserver::make_maps(SceneServices& services) {
   for (std::size_t k = 0; k < followed_.size(); ++k) {
     const NamedBody body = services.body(followed_.name(k));
     const std::int64_t shape = shapes_->find(body.shape);
     SCREE_REQUIRE(shape >= 0, "wear: the shape of a body of the scene has a name");
-    maps_.push_back(
-        std::make_unique<FaceMap>(*shapes_, shapes_->shapes()[static_cast<std::size_t>(shape)], face_options_));
+    maps_.push_back(map_of(shapes_->shapes()[static_cast<std::size_t>(shape)], followed_.name(k)));
     if (maps_.back()->size() == 0) {
       throw options_.error("bodies", "names '" + followed_.name(k) + "', which has no surface that anything touches");
     }

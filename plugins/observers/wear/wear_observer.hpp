@@ -35,6 +35,7 @@ class WearObserver final : public Observer {
 
  private:
   void make_maps(SceneServices& services);
+  [[nodiscard]] std::unique_ptr<FaceMap> map_of(const Shape& shape, const std::string& body) const;
   void wear_by(const Observation& now, const BodyContact& c);
   void remember_poses(const BodyView& bodies);
   void add_rows(double time);

@@ -125,6 +125,22 @@ TEST_F(WearTest, what_friction_holds_wears_nothing) {
   EXPECT_EQ(wear->account(0).total().volume(), 0.0);
 }
 
+TEST_F(WearTest, a_face_size_that_makes_too_many_faces_is_refused_with_one_that_does_not) {
+  try {
+    (void)make(std::string{kPlate} + "largest_face = 1e-5");
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("'largest_face' is refused: the surface of 'plate' is divided into about"), std::string::npos)
+        << text;
+    const std::string proposal = "with largest_face = ";
+    ASSERT_NE(text.find(proposal), std::string::npos) << text;
+    const double edge = std::stod(text.substr(text.find(proposal) + proposal.size()));
+    // Three digits are printed.
+    EXPECT_LE(make(std::string{kPlate} + "largest_face = " + std::to_string(1.01 * edge))->faces(0).size(), kMostFaces);
+  }
+}
+
 // 10 m/s at 30 degrees, then at 90: m U^2 / (4 p) / 4 and nothing. Contacts that stay loaded are one impact.
 TEST_F(WearTest, impacts_wear_as_finnie_says) {
   const auto wear = make(kPlate);

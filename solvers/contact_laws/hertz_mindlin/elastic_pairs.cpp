@@ -40,9 +40,27 @@ void ElasticPairs::read_solids(SceneServices& services) {
   }
 }
 
+void ElasticPairs::refuse_springs(const Materials& materials) const {
+  const auto refuse = [&](const ContactMaterial& contact, const std::string& who) {
+    if (contact.compliance == 0.0 && contact.damping == 0.0) return;
+    const std::string key = contact.compliance > 0.0 ? "compliance" : "damping";
+    throw options_.error("hertz_mindlin takes stiffness from young_modulus and damping from restitution, but " + who +
+                         " has a " + key +
+                         ", which would be without effect; take it away, or take linear_spring_dashpot");
+  };
+  for (std::uint32_t a = 0; a < solids_.size(); ++a) {
+    refuse(materials[a].contact, "material '" + solids_[a].name + "'");
+    for (std::uint32_t b = 0; b <= a; ++b) {
+      const std::string pair = "the pair of '" + solids_[b].name + "' and '" + solids_[a].name + "'";
+      if (materials.is_listed(a, b)) refuse(materials.pair(a, b), pair);
+    }
+  }
+}
+
 void ElasticPairs::setup(SceneServices& services, granular::Cohesion cohesion) {
   read_solids(services);
   for (granular::PairColumn* column : {&modulus, &shear, &ratio, &friction, &adhesion}) column->clear();
+  refuse_springs(services.materials());
   const auto give = [](const Solid& s) { return s.rigid ? 0.0 : (1.0 - s.poisson * s.poisson) / s.young; };
   const auto yield = [](const Solid& s) {
     return s.rigid ? 0.0 : 2.0 * (2.0 - s.poisson) * (1.0 + s.poisson) / s.young;

@@ -48,6 +48,7 @@ class ElasticPairs {
     bool rigid = false;
   };
   void read_solids(SceneServices& services);
+  void refuse_springs(const Materials& materials) const;
 
   Options options_;
   std::vector<Solid> solids_;

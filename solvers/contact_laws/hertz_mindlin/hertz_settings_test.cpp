@@ -41,6 +41,25 @@ TEST(hertz_settings, a_rigid_material_with_a_modulus_or_without_a_name_is_refuse
   EXPECT_NE(refusal("rigid = [\"stone\"]", {kSteel}).find("no material 'stone'"), std::string::npos);
 }
 
+TEST(hertz_settings, springs_and_dashpots_of_materials_and_pairs_are_refused_as_they_would_do_nothing) {
+  const Material spring = test::elastic("spring", 1e7, 0.3, 1000, {.restitution = 0.7, .compliance = 1e-5});
+  const Material dashpot = test::elastic("dashpot", 1e7, 0.3, 1000, {.restitution = 0.7, .damping = 0.5});
+  EXPECT_NE(refusal("", {kSteel, spring}).find("material 'spring' has a compliance, which would be without effect"),
+            std::string::npos);
+  EXPECT_NE(refusal("", {kSteel, dashpot}).find("material 'dashpot' has a damping"), std::string::npos);
+  FakeSceneServices services;
+  services.materials().add(kSteel);
+  services.materials().add(test::elastic("clay", 1e6, 0.3, 1800, {}));
+  services.materials().set_pair(0, 1, {.friction = 0.5, .compliance = 1e-6});
+  HertzMindlin law{options_from_text("", HertzMindlin::parameters())};
+  try {
+    law.setup(services);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string{error.what()}.find("the pair of 'steel' and 'clay' has a compliance"), std::string::npos);
+  }
+}
+
 TEST(hertz_settings, rigid_bodies_that_may_touch_each_other_are_refused) {
   const ContactScale scale{.material_a = 0, .material_b = 0, .mass = 1.0, .radius = 1e-3, .speed = 1.0};
   EXPECT_NE(refusal("rigid = [\"clay\"]", {kUnknown}, &scale).find("'clay' and 'clay' of bodies that may touch"),
