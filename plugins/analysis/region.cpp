@@ -77,6 +77,12 @@ CellGrid::CellGrid(const Options& options, SceneServices& services)
     }
     count_[axis] = static_cast<std::size_t>(wanted);
   }
+  constexpr std::size_t kMostCells = 4'000'000;  // a cell takes up to 320 bytes
+  if (const std::size_t cells = count_[0] * count_[1] * count_[2]; cells > kMostCells) {
+    throw table.error(
+        "cells", fmt::format("makes {} cells, more than the {} that are possible; take fewer along some axis", cells,
+                             kMostCells));
+  }
   divide();
 }
 

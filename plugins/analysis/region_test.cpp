@@ -91,6 +91,9 @@ TEST(cell_grid, refuses_empty_boxes_and_broken_numbers) {
             std::string::npos);
   EXPECT_NE(said("grid = {lower = [0, 0, 0], upper = [1, 1, 1], cells = [1, 2.5, 1]}").find("whole numbers"),
             std::string::npos);
+  EXPECT_NE(
+      said("grid = {lower = [0, 0, 0], upper = [1, 1, 1], cells = [9999, 9999, 9999]}").find("more than the 4000000"),
+      std::string::npos);
   EXPECT_NE(said("grid = {lower = [0, 0, 0], upper = [1, 1, 1], cells = [1, 1]}").find('3'), std::string::npos);
 }
 

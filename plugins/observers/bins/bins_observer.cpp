@@ -65,8 +65,8 @@ std::vector<Parameter> BinsObserver::parameters() {
       Parameter::vector("origin", "m", "a corner of the collecting rectangle"),
       Parameter::vector("u", "m", "edge of the rectangle along which the bins and the splitters lie"),
       Parameter::vector("v", "m", "the other edge"),
-      Parameter::integer("u_bins", "number of bins along u").at_least(1),
-      Parameter::integer("v_bins", "number of bins along v").at_least(1).by_default(1),
+      Parameter::integer("u_bins", "number of bins along u").at_least(1).at_most(10000),
+      Parameter::integer("v_bins", "number of bins along v").at_least(1).at_most(1000).by_default(1),
       Parameter::choice("direction", {"forward", "backward", "both"}, "crossings that count; forward is along u x v")
           .by_default("both"),
       Parameter::number("series_interval", "s", "of the time series; rounded to whole steps")

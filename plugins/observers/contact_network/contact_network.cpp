@@ -88,6 +88,7 @@ std::vector<Parameter> ContactNetwork::parameters() {
 
 void ContactNetwork::setup(SceneServices& services, const std::filesystem::path& results) {
   materials_ = &services.materials();
+  end_time_ = services.end_time();
   region_ = Region{options_, services};
   row_every_ = steps_between(options_.number("interval"), services.time_step());
   if (options_.has("file_interval")) {
@@ -102,14 +103,16 @@ void ContactNetwork::setup(SceneServices& services, const std::filesystem::path&
 void ContactNetwork::observe(const Observation& now, Attributes&) {
   const bool row = now.step % row_every_ == 0;
   const bool file = file_every_ > 0 && now.step % file_every_ == 0 && !results_.empty();
-  if (!row && !file) return;
+  const bool last = now.time > end_time_ - 0.5 * now.dt;
+  if (!row && !file && !last) return;
   region_.update(now.bodies);
   build_network(now.bodies, now.contacts, now.dt, *materials_, region_, network_);
-  if (row) add_row(now);
+  network_time_ = now.time;
+  if (row) add_row(now.time);
   if (file) write_file(now);
 }
 
-void ContactNetwork::add_row(const Observation& now) {
+void ContactNetwork::add_row(double time) {
   const Coordination grains = coordination(network_, least_);
   const Fabric normals = fabric(network_);
   double sum = 0.0, largest = 0.0;
@@ -123,18 +126,20 @@ void ContactNetwork::add_row(const Observation& now) {
   }
   const double per_link = links > 0 ? 1.0 / static_cast<double>(links) : 0.0;
   const Mat3& f = normals.tensor;
-  table_.add(std::array<double, kColumns>{now.time, static_cast<double>(grains.grains), static_cast<double>(links),
-                                          grains.mean, grains.mean_without_rattlers,
-                                          static_cast<double>(grains.rattlers), per_link * sum, largest,
-                                          per_link * static_cast<double>(sliding), normals.anisotropy, f.row0.x,
-                                          f.row1.y, f.row2.z, f.row1.z, f.row0.z, f.row0.y});
-  if (now.time < from_) return;
+  table_.add(std::array<double, kColumns>{
+      time, static_cast<double>(grains.grains), static_cast<double>(links), grains.mean, grains.mean_without_rattlers,
+      static_cast<double>(grains.rattlers), per_link * sum, largest, per_link * static_cast<double>(sliding),
+      normals.anisotropy, f.row0.x, f.row1.y, f.row2.z, f.row1.z, f.row0.z, f.row0.y});
+  if (time < from_) return;
   forces_.add(network_);
   if (degrees_.size() < grains.distribution.size()) degrees_.resize(grains.distribution.size(), 0);
   for (std::size_t k = 0; k < grains.distribution.size(); ++k) degrees_[k] += grains.distribution[k];
 }
 
-void ContactNetwork::finish(const Observation&) {
+// When finish() is called, sinks may have taken bodies that the contacts name: the network is that of the last step's look.
+void ContactNetwork::finish(const Observation& last) {
+  const bool has_row = table_.rows() > 0 && table_.value(table_.rows() - 1, kTime) == last.time;
+  if (network_time_ == last.time && !has_row) add_row(last.time);
   table_.close();
   if (results_.empty() || table_.rows() == 0) return;
   write_histograms();

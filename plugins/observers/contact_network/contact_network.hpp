@@ -48,7 +48,7 @@ class ContactNetwork final : public Observer {
   void load(const StateReader& in) override;
 
  private:
-  void add_row(const Observation& now);
+  void add_row(double time);  // of network_
   void write_file(const Observation& now);
   void write_histograms() const;
   void write_figures() const;
@@ -62,7 +62,8 @@ class ContactNetwork final : public Observer {
   std::string stem_;
   const Materials* materials_ = nullptr;
   std::uint64_t row_every_ = 1, file_every_ = 0;  // steps; 0: never
-  Network network_;                               // workspace
+  Network network_;
+  double network_time_ = -1.0, end_time_ = 0.0;  // of network_; of the run [s]
   SeriesTable table_;
   FileSeries series_;
   ForceHistogram forces_;

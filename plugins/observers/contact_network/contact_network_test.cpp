@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -87,6 +88,23 @@ TEST_F(ContactNetworkTest, a_resumed_run_writes_what_one_run_writes) {
   }
   EXPECT_TRUE(fs::exists(folder / "contact_network_forces.svg"));
   EXPECT_EQ(whole->report()[0].rows[0][0], "3");
+}
+
+TEST_F(ContactNetworkTest, the_end_of_the_run_has_a_row_once) {
+  for (const auto& [end, rows] : {std::pair{std::uint64_t{11}, 4}, std::pair{std::uint64_t{12}, 4}}) {
+    services.end = 1e-3 * static_cast<double>(end);
+    const auto part = make("interval = 0.004", folder);
+    for (std::uint64_t step = 1; step <= end; ++step) look(*part, step);
+    const double force = std::max({impulse[0].x, impulse[1].x, impulse[2].x}) / 1e-3;
+    finish(*part, end);
+    const std::string table = read("contact_network.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), rows) << table;
+    std::istringstream last{table.substr(table.rfind('\n', table.size() - 2) + 1)};
+    std::vector<double> values;
+    for (std::string cell; std::getline(last, cell, ',');) values.push_back(std::stod(cell));
+    EXPECT_DOUBLE_EQ(values.at(0), services.end);
+    EXPECT_NEAR(values.at(7), force, 1e-12 * force);
+  }
 }
 
 // Segments between centres, from the floor's point of contact; the middle link slides.

@@ -69,6 +69,16 @@ void ContinuumObserver::setup(SceneServices& services, const std::filesystem::pa
   schedule_ = Schedule{options_, services.time_step()};
   stem_ = Stem{"continuum", services, results};
   grid_ = CellGrid{options_, services};
+  if (options_.has("slice_place")) {
+    const int normal = axis_of(options_.text("slice_normal"));
+    const double place = options_.number("slice_place"), from = grid_.box().lower[normal],
+                 to = grid_.box().upper[normal];
+    if (place < from || place > to) {
+      throw options_.error(
+          "slice_place", fmt::format("lies outside of the grid, which reaches from {:g} m to {:g} m along {}", from, to,
+                                     options_.text("slice_normal")));
+    }
+  }
   field_ = std::make_unique<CoarseField>(grid_, kernel_of(options_, grid_));
   if (options_.has("window")) steps_of_window_ = steps_between(options_.number("window"), services.time_step());
   window_begin_ = kNone;

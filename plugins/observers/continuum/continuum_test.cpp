@@ -94,6 +94,14 @@ TEST_F(ContinuumTest, begins_when_it_is_told_to) {
   EXPECT_TRUE(observer->report().empty());
 }
 
+TEST_F(ContinuumTest, refuses_a_slice_outside_of_the_grid) {
+  const std::string grid = "grid = {lower = [0, 0, 0], upper = [1, 2, 1], cells = [9, 9, 9]}\nwidth = 0.2\n";
+  EXPECT_NE(refusal(grid + "slice_normal = 'y'\nslice_place = 2.1").find("from 0 m to 2 m along y"), std::string::npos);
+  EXPECT_NE(refusal(grid + "slice_normal = 'z'\nslice_place = -0.1").find("from 0 m to 1 m along z"),
+            std::string::npos);
+  EXPECT_NO_THROW((void)make(grid + "slice_normal = 'y'\nslice_place = 1.9"));
+}
+
 TEST_F(ContinuumTest, refuses_kernels_between_the_cells_and_grids_that_move) {
   services.add_body("drum", {0, {}, ""});
   EXPECT_NE(

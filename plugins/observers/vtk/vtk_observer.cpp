@@ -29,7 +29,7 @@ std::vector<Parameter> VtkObserver::parameters() {
       Parameter::boolean("spheres", "write a second series with one point per sphere of every particle")
           .by_default(false),
       Parameter::choice("precision", {"single", "double"}, "of floating-point arrays").by_default("double"),
-      Parameter::integer("segments", "of a full circle of a wall's surface").at_least(8).by_default(64),
+      Parameter::integer("segments", "of a full circle of a wall's surface").at_least(8).at_most(512).by_default(64),
       Parameter::number("plane_size", "m", "edge of the square that stands for an unbounded plane")
           .above(0.0)
           .by_default(1.0),
