@@ -41,7 +41,7 @@ std::vector<Method> methods_of(const std::vector<std::string>& only) {
   for (const PluginEntry* entry : plugin_host().entries()) {
     if (entry->kind == CcpSolver::kKind) out.push_back(method_of(entry->name));
   }
-  out.push_back({"apgd, plain", "apgd", "scaled = false"});
+  out.push_back({"plain apgd", "apgd", "scaled = false"});
   return out;
 }
 

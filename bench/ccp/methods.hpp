@@ -27,7 +27,7 @@ struct Method {
 /// "NAME" or "NAME{KEY = VALUE}".
 [[nodiscard]] Method method_of(const std::string& text);
 
-/// Those named in `only`; none named: every solver with its defaults, and apgd as in the paper, "apgd, plain".
+/// Those named in `only`; none named: every solver with its defaults, and apgd as in the paper, "plain apgd".
 [[nodiscard]] std::vector<Method> methods_of(const std::vector<std::string>& only);
 
 /// @throws Error (config) for names and settings that do not exist.

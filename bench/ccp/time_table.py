@@ -24,7 +24,7 @@ import drum_problems
 
 TARGETS = ("0.01", "0.001", "0.0001", "map")
 SOLVERS = {name: name for name in ("asgs", "apgd", "spg", "pgs", "jacobi", "admm", "interior_point", "semismooth_newton")}
-SOLVERS["apgd, plain"] = "apgd{scaled = false}"
+SOLVERS["plain apgd"] = "apgd{scaled = false}"
 FIELDS = ("problem", "start", "contacts", "solver", "target", "outcome", "iterations", "seconds [s]", "reached [m/s]")
 STEPS = {8000: (80, 100), 64000: (20,)}  # of the drums, after which the problem is taken; others as 64 000
 
@@ -143,10 +143,20 @@ def prepare(wanted):
         steps = STEPS.get(count, STEPS[64000])
         drum = wanted.folder / f"drum_{count}"
         files = drum_problems.record(str(wanted.build / "bin/scree"), drum, bed.resolve(), steps, wanted.threads)
-        tables += [(f"bed of {count}", [bed], False), (f"drum of {count}", files, True)]
+        if not wanted.no_beds:
+            tables.append((f"bed of {count}", [bed], False))
+        tables.append((f"drum of {count}", files, True))
         if wanted.cold_drums:
             tables.append((f"drum of {count}", files, False))
     return sorted(tables, key=lambda entry: (not entry[0].startswith("bed"), entry[2]))
+
+
+def solver_names(text):
+    names = text.split(",")
+    for name in names:
+        if name not in SOLVERS:
+            raise argparse.ArgumentTypeError(f"there is no solver '{name}'; valid: {', '.join(SOLVERS)}")
+    return names
 
 
 def main():
@@ -155,8 +165,9 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="for problems and tables")
     parser.add_argument("--bed", type=pathlib.Path, action="append", required=True, help="a bed file, see scenes/bed.toml")
     parser.add_argument("--prepare", action="store_true", help="only fill the drums and record their problems")
+    parser.add_argument("--no-beds", action="store_true", help="the drums only")
     parser.add_argument("--cold-drums", action="store_true", help="the drums from zero as well")
-    parser.add_argument("--solvers", type=lambda text: text.split(","), default=None, help=f"some of {', '.join(SOLVERS)}")
+    parser.add_argument("--solvers", type=solver_names, default=None, help=f"some of {', '.join(SOLVERS)}")
     parser.add_argument("--no-map", action="store_true", help="residuals only")
     parser.add_argument("--limit", type=float, default=30.0, help="seconds for a solve")
     parser.add_argument("--memory", type=float, default=8.0, help="for a solve, in GiB")

@@ -5,7 +5,7 @@
 //
 // A FILE is a bed (.txt), solved from zero, or a problem that `scree run --record-ccp` wrote (.h5), solved from zero and
 // from its guess. The files of a label are averaged. Solvers are those of the plugin folder with their defaults, and apgd
-// without its scaling ("apgd, plain"); --only=asgs takes some, NAME{KEY = VALUE} with other settings. A solve gets at most N
+// without its scaling ("plain apgd"); --only=asgs takes some, NAME{KEY = VALUE} with other settings. A solve gets at most N
 // iterations (4000).
 //
 // To a residual: one solve with it as tolerance, the least of three if short. To the natural map: the same with the largest
@@ -33,7 +33,8 @@ namespace {
 
 constexpr std::array kResiduals{1e-2, 1e-3, 1e-4};  // [m/s]
 constexpr double kMap = 1e-4;                       // [1]
-constexpr int kMapTries = 6;
+constexpr int kMapTries = 8;
+constexpr double kMost = 0.7;   // of a tolerance that misses, for the next try: the map does not follow it closely
 constexpr double kShort = 0.5;  // solves of less are repeated [s]
 constexpr double kLong = 4.0;   // of more the first answer to the natural map is taken [s]
 
@@ -109,6 +110,7 @@ class Trial {
       spent += took;
     }
     map_of_[tolerance] = natural_map(delassus_, gamma_);
+    if (map_of_[tolerance] <= kMap && (!mapped_ || cost.iterations <= mapped_->iterations)) mapped_ = cost;
     return cost;
   }
 
@@ -135,8 +137,7 @@ class Trial {
   }
 
   std::optional<Cost> solve_for_map() {
-    std::optional<Cost> best;
-    for (int k = 0; k < kMapTries; ++k) {
+    for (int k = 0; k < kMapTries && (!mapped_ || mapped_->seconds <= kLong); ++k) {
       // The tightest tolerance that misses, and the loosest below it that does not.
       double misses = 0.0, holds = 0.0;
       for (const auto& [tolerance, map] : map_of_) {
@@ -146,7 +147,7 @@ class Trial {
       if (misses > 0.0 && holds > 0.0 && misses < 1.15 * holds) break;
       double next = 0.0;
       if (holds == 0.0) {
-        next = 0.9 * misses * kMap / map_of_.at(misses);
+        next = misses * std::min(kMost, 0.9 * kMap / map_of_.at(misses));
       } else if (misses == 0.0) {
         next = 1.1 * holds * kMap / map_of_.at(holds);
       } else {
@@ -154,13 +155,11 @@ class Trial {
         const double guess = holds * std::pow(kMap / map_of_.at(holds), slope);
         next = std::clamp(0.98 * guess, 1.02 * holds, 0.95 * misses);
       }
-      const std::optional<Cost> cost = solve(next);
-      if (!cost) break;
-      if (map_of_.at(next) <= kMap && (!best || cost->iterations <= best->iterations)) best = cost;
-      if (best && settings_.events) say("map", best);
-      if (best && best->seconds > kLong) break;
+      if (!solve(next)) break;
+      if (mapped_ && settings_.events) say("map", mapped_);
     }
-    return best;
+    if (mapped_ && settings_.events) say("map", mapped_);
+    return mapped_;
   }
 
   CcpProblem problem_;
@@ -171,6 +170,7 @@ class Trial {
   SolveSummary summary_;
   std::vector<double> gamma_;
   std::map<double, double> map_of_;  ///< natural map of the answer, by tolerance
+  std::optional<Cost> mapped_;       ///< of the quickest solve whose answer had a map small enough
 };
 
 // The mean over several problems; nothing where one of them failed.

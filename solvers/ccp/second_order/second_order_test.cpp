@@ -154,6 +154,25 @@ TEST(second_order, newton_steps_make_use_of_a_guess) {
   EXPECT_LE(2 * warm.iterations, cold.summary.iterations);
 }
 
+// Three times the answer is above no impulses at all (of an answer g, the objective of t g is (t - t^2 / 2) r.g, with r.g < 0): then the
+// way from zero is taken, step by step, whatever the guess.
+TEST(second_order, newton_steps_begin_at_zero_when_the_guess_is_above_it) {
+  const TestingProblem t = random_problem({.bodies = 40, .contacts = 100, .reach = 8, .seed = 12});
+  SemismoothNewton newton{PenaltyOptions{}};
+  const Solved cold = solve(newton, t.view(), 1e-9, 500);
+  ASSERT_EQ(cold.summary.status, SolveStatus::converged);
+  std::vector<double> far = cold.gamma;
+  for (double& g : far) g *= 3.0;
+  ASSERT_GT(objective_of(t.view(), far), 0.0);
+  SolveContext context;
+  context.tolerance = 1e-9;
+  context.max_iterations = 500;
+  const SolveSummary summary = newton.solve(t.view(), context, far);
+  EXPECT_EQ(summary.status, SolveStatus::converged);
+  EXPECT_EQ(summary.iterations, cold.summary.iterations);
+  EXPECT_EQ(far, cold.gamma);
+}
+
 /// Two bodies, one upon the other, on a floor, and below a ceiling that comes down, unless it is `open` above.
 TestingProblem squeezed(bool open) {
   TestingProblem t;

@@ -1,7 +1,9 @@
 #include "semismooth_newton.hpp"
 
+#include <algorithm>
 #include <limits>
 
+#include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
 
 namespace scree {
@@ -37,7 +39,10 @@ SolveSummary SemismoothNewton::solve(const CcpProblem& problem, const SolveConte
   SolveSummary summary{SolveStatus::iteration_limit, 0, 0.0};
   if (!best_.done()) {
     system_.bind(problem);
-    newton_.run(system_, problem, options_, context, gamma, best_, summary);
+    start_.assign(gamma.begin(), gamma.end());
+    // Outer steps stay near where they start.
+    if (best_.guess_is_above_zero()) std::ranges::fill(start_, 0.0);
+    newton_.run(system_, problem, options_, context, start_, best_, summary);
     newton_.insist(system_, problem, context, best_, summary);
   }
   best_.conclude(summary);
@@ -48,6 +53,7 @@ void SemismoothNewton::release_workspace() {
   system_ = {};
   best_ = {};
   newton_ = {};
+  release(start_);
 }
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Semi-smooth Newton for cone complementarity problems: ProximalNewton from the guess.
+// Semi-smooth Newton for cone complementarity problems: ProximalNewton from the guess, or from zero where that is lower.
 #pragma once
 
 #include <vector>
@@ -26,6 +26,7 @@ class SemismoothNewton final : public CcpSolver {
   direct::DirectSystem system_;
   direct::BestAnswer best_;
   second_order::ProximalNewton newton_;
+  std::vector<double> start_;  ///< impulses of the first iterate [N s]
 };
 
 }  // namespace scree

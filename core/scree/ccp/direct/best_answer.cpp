@@ -108,6 +108,15 @@ bool BestAnswer::look_for_a_certificate(std::span<const double> gamma) {
   return true;
 }
 
+bool BestAnswer::guess_is_above_zero() const {
+  const CcpProblem& problem = delassus_.problem();
+  double objective = 0.0;
+  for (std::size_t k = 0; k < guess_.size(); ++k) objective += guess_[k] * (0.5 * guess_velocities_[k] + problem.r[k]);
+  return objective > 0.0 && std::none_of(problem.blocks.begin(), problem.blocks.end(), [](const CcpBlock& block) {
+           return block.kind == CcpKind::box && (block.lower > 0.0 || block.upper < 0.0);
+         });
+}
+
 void BestAnswer::velocities_of_guess(std::span<double> u) const {
   for (std::size_t k = 0; k < u.size(); ++k) u[k] = guess_velocities_[k] + delassus_.problem().r[k];
 }

@@ -33,6 +33,8 @@ class BestAnswer {
   /// Puts the residual into `summary`, and the status that it deserves.
   void conclude(SolveSummary& summary) const;
 
+  /// The objective of the projected guess is above that of no impulses at all, which K allows.
+  [[nodiscard]] bool guess_is_above_zero() const;
   /// N gamma + r of the projected guess [m/s], one number a row.
   void velocities_of_guess(std::span<double> u) const;
   /// trace(N_ii) of every unit [1/kg].
