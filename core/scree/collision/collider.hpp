@@ -60,7 +60,7 @@ struct BodyPair {
 
 /// Who may touch whom before anything has moved far; see StepServices::neighbours().
 struct NeighbourView {
-  std::span<const BodyPair> balls;  ///< pairs of bodies that are one sphere each, sorted
+  std::span<const BodyPair> balls;  ///< is_ball() with another or with what is_flat(); sorted
   /// The bodies of all other pairs, in order, whose poses neighbour_contacts() reads; empty when there are no such pairs.
   std::span<const BodyIndex> others;
 };

@@ -5,6 +5,7 @@
 
 #include "scree/base/release.hpp"
 #include "scree/base/require.hpp"
+#include "scree/collision/simple_pairs.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree {
@@ -60,7 +61,7 @@ void ColliderSet::note_new_shapes(const ShapeSet& shapes) {
     if (shape.primitive_count == 1 && record.colliders == 1) {
       const Primitive& only = shapes.primitives()[shape.first_primitive];
       record.at_origin = only.local.position == Vec3{};
-      record.single_sphere = only.kind == ShapeKind::sphere && record.at_origin && only.local.orientation == Quat{};
+      record.single_sphere = scree::is_ball(shapes, static_cast<std::uint32_t>(k));
       record.radius = only.bounding_radius;
     }
     shapes_.push_back(record);

@@ -60,7 +60,7 @@ class CollisionPipeline {
 
   /// Pairs that come within `skin` [m] of each other as the bodies stand. Valid until the next call of find() or this.
   NeighbourView find_neighbours(const BodyView& bodies, double skin);
-  /// Contacts with a gap below `reach` [m] of those neighbours that are not two balls, at the present poses of the same bodies;
+  /// Contacts with a gap below `reach` [m] of those neighbours that are not simple pairs, at the present poses of the same bodies;
   /// sorted as those of find(), and valid as long.
   std::span<const Contact> collide_neighbours(const BodyView& bodies, double reach);
 

@@ -4,6 +4,7 @@
 
 #include "scree/base/release.hpp"
 #include "scree/collision/collision_pipeline.hpp"
+#include "scree/collision/simple_pairs.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree {
@@ -39,15 +40,23 @@ NeighbourView CollisionPipeline::find_neighbours(const BodyView& bodies, double 
   return {ball_neighbours_, followed_bodies_};
 }
 
-/// Adds pairs of two bodies that are one ball each to the one list, and all other pairs to the other.
+/// Adds pairs of two balls, or of a ball near a flat, to the one list, and all other pairs to the other.
 void CollisionPipeline::part_neighbours(const BodyView& bodies, std::span<const ColliderPair> pairs) {
   const auto body = colliders_.view().body;
+  const auto near = [&](BodyIndex ball, BodyIndex flat, double reach) {
+    const Pose wall = {bodies.position[flat], bodies.orientation[flat]};
+    const Pose plane = wall * only_primitive(shapes_, bodies.shape[flat])->local;
+    const double radius = only_primitive(shapes_, bodies.shape[ball])->size.x;
+    return transform_back(plane, bodies.position[ball]).z - radius < reach;
+  };
   for (const ColliderPair& pair : pairs) {
     const BodyIndex a = body[pair.a], b = body[pair.b];
-    if (colliders_.is_ball(bodies.shape[a]) && colliders_.is_ball(bodies.shape[b])) {
-      ball_neighbours_.push_back({a, b});
-    } else {
+    const bool ball_a = colliders_.is_ball(bodies.shape[a]), ball_b = colliders_.is_ball(bodies.shape[b]);
+    const bool simple = ball_a && ball_b;
+    if (!simple && !(ball_a && is_flat(shapes_, bodies, b)) && !(ball_b && is_flat(shapes_, bodies, a))) {
       other_neighbours_.push_back(pair);
+    } else if (simple || near(ball_a ? a : b, ball_a ? b : a, pair.reach)) {
+      ball_neighbours_.push_back({a, b});
     }
   }
 }

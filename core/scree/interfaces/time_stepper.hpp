@@ -35,8 +35,8 @@ class StepServices {
   /// The pairs that come within `skin` [m] of each other at the state `bodies`. As long as no two surfaces approach by more
   /// than that, no other pair touches. Valid until the next call.
   virtual NeighbourView neighbours(const BodyView& bodies, double skin);
-  /// Contacts with a gap below `reach` [m] at the state `bodies`, among those pairs of neighbours() that are not of two
-  /// balls; sorted as contacts() are. Bodies are those of that call, moved. Valid until the next call.
+  /// Contacts with a gap below `reach` [m] at the state `bodies`, of those pairs of neighbours() that are not in
+  /// its `balls`; sorted as contacts() are. Bodies are those of that call, moved. Valid until the next call.
   virtual std::span<const Contact> neighbour_contacts(const BodyView& bodies, double reach);
   /// True when forces() depends on neither place, motion nor time, and may be asked for once an outer step.
   [[nodiscard]] virtual bool forces_are_steady() const { return false; }

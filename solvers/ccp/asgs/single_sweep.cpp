@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scree/ccp/cone3.hpp"
-#include "scree/ccp/lanes.hpp"
+#include "scree/math/lanes.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
 #include "scree/math/contact_frame.hpp"
 

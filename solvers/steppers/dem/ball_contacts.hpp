@@ -1,11 +1,10 @@
-// BallContacts: contacts of bodies that are one sphere each, from the neighbour list to forces.
+// BallContacts: contacts of balls, with each other and with flats, from the neighbour list to forces.
 //
 // Pairs lie in the order of space, cut into chunks of bodies. A chunk adds up the forces on its own bodies and, apart, those on
 // bodies of other chunks ("ghosts"), which are added in a fixed order afterwards: any number of threads gives the same bits.
 // What a contact keeps lies beside its pair, so that a sub-step looks nothing up.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +21,8 @@ class StateWriter;
 }  // namespace scree
 
 namespace scree::dem {
+
+struct BallWork;
 
 class BallContacts {
  public:
@@ -43,20 +44,26 @@ class BallContacts {
 
   [[nodiscard]] std::size_t history_size() const { return history_; }
   [[nodiscard]] bool rolls() const { return rolls_; }
+  [[nodiscard]] std::size_t pairs() const { return neighbours_.size(); }
   /// Bytes of list and histories.
   [[nodiscard]] std::size_t memory() const;
-  [[nodiscard]] std::size_t pairs() const { return pairs_.size(); }
 
   void save(StateWriter& out, std::span<const BodyId> ids) const;
   /// `ids` of the bodies that the contacts are between.
   void load(const StateReader& in, std::span<const BodyId> ids);
 
  private:
-  static constexpr std::uint32_t kInside = ~std::uint32_t{0};
-  /// Bodies a < b as the scene numbers them.
+  /// Two balls, a < b as the scene numbers them, and where in slots.wrench a chunk adds up the forces on them.
   struct Pair {
     Slot a = 0, b = 0;
-    std::uint32_t ghost = kInside;  ///< which ghost of the chunk, where one of the two lies in another chunk
+    std::uint32_t to_a = 0, to_b = 0;
+  };
+  /// A ball and a flat.
+  struct FlatPair {
+    Slot ball = 0;
+    std::uint32_t flat = 0;  ///< of Slots::flats
+    std::uint32_t to_flat = 0;
+    bool ball_is_b = false;
   };
   struct Incoming {
     Slot slot = 0;
@@ -65,32 +72,44 @@ class BallContacts {
   static constexpr unsigned kTouching = 1;  // flags: at the last evaluation,
   static constexpr unsigned kTouched = 2;   // at some time in this outer step,
   static constexpr unsigned kLeaving = 4;   // and Acting::leaving
-  struct Work;
 
+  // The list.
   void order_pairs(const Slots& slots);
+  void order_flat_pairs(const Slots& slots, std::vector<std::uint32_t>& numbers);
   void find_ghosts(std::size_t bodies);
   void carry_over(std::span<const BodyPair> from, std::span<const std::uint32_t> place, std::span<const double> records,
                   std::span<const std::uint8_t> flags, std::span<const Vec3> before);
+  void add_to_report(std::size_t neighbour, const Contact& contact, const Vec3& after, ContactRecords& out) const;
+
+  // Pairs that touch, and those that do no longer.
   ContactTally evaluate_chunk(Slots& slots, const Evaluation& evaluation, std::size_t chunk);
-  void let_go(std::size_t pair);
-  std::size_t look_at(const Slots& slots, const Evaluation& evaluation, std::size_t first, std::size_t last, Work& work,
-                      std::array<std::uint32_t, ContactBatch::kMost>& gone) const;
-  void measure(const Slots& slots, const Evaluation& evaluation, Work& work) const;
-  void gather(const Slots& slots, const Evaluation& evaluation, Work& work) const;
-  static void combine(const Evaluation& evaluation, Work& work);
-  void note(const Evaluation& evaluation, Work& work);
-  void scatter(Slots& slots, const Evaluation& evaluation, std::size_t chunk, Work& work);
+  void look_at(const Slots& slots, double reach, std::size_t first, std::size_t last, BallWork& work) const;
+  void look_at_flats(const Slots& slots, double reach, std::size_t first, std::size_t last, BallWork& work) const;
+  void let_go(const BallWork& work);
+
+  // Contacts of a batch, step by step: of two balls,
+  void measure(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
+  void gather(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
+  void scatter(Slots& slots, BallWork& work) const;
+  // of balls and flats,
+  void measure_flats(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
+  void gather_flats(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
+  void scatter_flats(Slots& slots, const Evaluation& evaluation, BallWork& work) const;
+  // and of both.
+  void recall(BallWork& work) const;
+  void apply_law(const Evaluation& evaluation, BallWork& work) const;
+  void keep(const Evaluation& evaluation, BallWork& work);
 
   std::size_t history_ = 0, stride_ = 3;
   bool rolls_ = false;
   std::vector<BodyPair> neighbours_;  // as given, sorted
-  std::vector<std::uint32_t> place_;  // of each in what follows
+  std::vector<std::uint32_t> place_;  // of each: its number in pairs_, or behind those in flat_pairs_
   std::vector<Pair> pairs_;           // by chunk, then by slots
-  std::vector<std::uint32_t> chunk_begin_;
+  std::vector<FlatPair> flat_pairs_;  // by ball, then by flat
+  std::vector<std::uint32_t> chunk_begin_, flat_begin_;
   std::vector<double> records_;  // stride_ doubles a pair: history, impulse, moment
   std::vector<std::uint8_t> flags_;
-  std::vector<Vec3> before_;    // relative velocity when the outer step began, or the surfaces met [m/s], world
-  std::vector<Wrench> ghosts_;  // of all chunks
+  std::vector<Vec3> before_;  // relative velocity when the outer step began, or the surfaces met [m/s], world
   std::vector<std::uint32_t> ghost_begin_;
   std::vector<Incoming> incoming_;  // by chunk of the slot
   std::vector<std::uint32_t> incoming_begin_;

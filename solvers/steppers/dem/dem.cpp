@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <ranges>
 #include <string>
 
 #include "scree/base/error.hpp"
@@ -103,7 +104,10 @@ void Dem::take_over(const Call& call) {
     list_is_good_ = false;
   }
   joints_.begin_step(call.services.machine(), bodies);
+  const auto flats = [&] { return slots_.flats | std::views::transform(&dem::Flat::slot); };
+  const std::vector<dem::Slot> old_flats{flats().begin(), flats().end()};
   slots_.load(bodies, scene_->shapes(), joints_.bodies(), call.services.executor());
+  list_is_good_ = list_is_good_ && std::ranges::equal(old_flats, flats());
   refuse_moving_surfaces_of_balls(bodies);
   balls_.begin_step();
   shapes_.begin_step(bodies);
@@ -226,7 +230,6 @@ void Dem::find_neighbours(const Call& call) {
   balls_.set_neighbours(slots_, found.balls);
   list_is_good_ = true;
   used_ = 0.0;
-  ++rebuilds_;
 }
 
 void Dem::ask_fields(const Call& call, double time) {

@@ -93,7 +93,6 @@ class Dem final : public TimeStepper {
   double h_ = 0.0;         ///< sub-step [s]
   double last_h_ = 0.0;    ///< of the last outer step [s]
   std::size_t sub_steps_ = 0;
-  std::size_t rebuilds_ = 0;
 };
 
 }  // namespace scree

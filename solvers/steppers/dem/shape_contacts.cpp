@@ -48,9 +48,11 @@ void ShapeContacts::begin_step(const BodyView& bodies) {
     return static_cast<BodyIndex>(std::ranges::lower_bound(bodies.id, id) - bodies.id.begin());
   };
   active_.clear();
-  for (Entry& e : entries_) {
+  for (std::uint32_t k = 0; k < entries_.size(); ++k) {
+    Entry& e = entries_[k];
     e.impulse = e.moment = {};
     e.contact.a = index(e.key.a), e.contact.b = index(e.key.b);
+    active_.push_back(k);  // all that is left touches
   }
 }
 
@@ -199,7 +201,8 @@ void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Eva
     batch.normal.set(k, c.normal);
     batch.velocity.set(k, v);
     batch.spin.set(k, b.angular - a.angular);
-    batch.materials[k] = static_cast<std::uint32_t>(a.material * e.materials + b.material);
+    batch.materials[k] = static_cast<std::uint32_t>(slots.material[slots.slot_of[c.a]] * e.materials +
+                                                    slots.material[slots.slot_of[c.b]]);
     const Acting acting = timing.of({entry.is_new ? 1.0 : 0.0, entry.leaving ? 1.0 : 0.0}, overlap, approach);
     batch.ahead[k] = acting.ahead;
     w.acting[k] = acting.part;
@@ -217,8 +220,8 @@ void ShapeContacts::scatter(const Evaluation& e, Work& w) {
     Entry& entry = entries_[active_[w.first + k]];
     const Vec3 force = w.acting[k] * w.batch.force[k];
     const Vec3 torque = e.rolls ? w.acting[k] * w.batch.torque[k] : Vec3{};
-    on_a_[w.first + k] = {-force, cross(w.arms[k].a, -force) - torque};
-    on_b_[w.first + k] = {force, cross(w.arms[k].b, force) + torque};
+    on_a_[w.first + k] = {.force = -force, .torque = cross(w.arms[k].a, -force) - torque};
+    on_b_[w.first + k] = {.force = force, .torque = cross(w.arms[k].b, force) + torque};
     if (entry.impulse == Vec3{} && (entry.is_new || e.stage == Stage::first)) entry.before = w.batch.velocity[k];
     entry.leaving = w.leaving[k];
     entry.impulse += time * force;

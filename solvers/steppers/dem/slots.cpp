@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scree/collision/simple_pairs.hpp"
 #include "scree/math/aabb.hpp"
+#include "scree/math/morton.hpp"
 #include "scree/model/shape_set.hpp"
 #include "scree/parallel/executor.hpp"
 
@@ -11,22 +13,10 @@ namespace scree::dem {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr int kBitsPerAxis = 20;
 
-/// Spreads the lower 20 bits so that two zeros stand between any two of them.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | (x << 32)) & 0x001f00000000ffffULL;
-  x = (x | (x << 16)) & 0x001f0000ff0000ffULL;
-  x = (x | (x << 8)) & 0x100f00f00f00f00fULL;
-  x = (x | (x << 4)) & 0x10c30c30c30c30c3ULL;
-  return (x | (x << 2)) & 0x1249249249249249ULL;
-}
-
-/// True for a shape of one colliding primitive, a sphere about the body's origin.
-bool is_ball(const ShapeSet& shapes, const Shape& shape) {
-  if (shape.primitive_count != 1) return false;
-  const Primitive& only = shapes.primitives()[shape.first_primitive];
-  return only.kind == ShapeKind::sphere && only.local.position == Vec3{} && only.local.orientation == Quat{};
+/// 0 where a body is no ball [m].
+double ball_radius(const ShapeSet& shapes, std::uint32_t shape) {
+  return is_ball(shapes, shape) ? only_primitive(shapes, shape)->size.x : 0.0;
 }
 
 bool is_even(const Vec3& moments) { return moments.x == moments.y && moments.y == moments.z; }
@@ -41,7 +31,7 @@ void Slots::sort(const BodyView& bodies) {
   }
   const Vec3 size = box.upper - box.lower;
   const double longest = std::max({size.x, size.y, size.z});
-  constexpr double kLast = (1u << kBitsPerAxis) - 1;
+  constexpr double kLast = (1u << kMortonBits) - 1;
   const double scale = longest > 0.0 && std::isfinite(longest) ? kLast / longest : 0.0;
   std::vector<std::pair<std::uint64_t, BodyIndex>> coded(n);
   const auto cell = [&](double x) { return static_cast<std::uint64_t>(std::clamp(scale * x, 0.0, kLast)); };
@@ -50,7 +40,7 @@ void Slots::sort(const BodyView& bodies) {
     std::uint64_t code = ~std::uint64_t{0};
     if (bodies.motion[i] == Motion::dynamic && is_finite(bodies.position[i])) {
       const Vec3 at = bodies.position[i] - box.lower;
-      code = spread(cell(at.x)) | (spread(cell(at.y)) << 1) | (spread(cell(at.z)) << 2);
+      code = morton_code(cell(at.x), cell(at.y), cell(at.z));
     }
     coded[i] = {code, i};
   }
@@ -66,29 +56,51 @@ void Slots::set_order(std::span<const BodyIndex> bodies) {
   for (Slot k = 0; k < body.size(); ++k) slot_of[body[k]] = k;
 }
 
+std::size_t Slots::flat_of(Slot slot) const {
+  const auto at = std::ranges::lower_bound(flats, slot, {}, &Flat::slot);
+  return at != flats.end() && at->slot == slot ? static_cast<std::size_t>(at - flats.begin()) : flats.size();
+}
+
 void Slots::load(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented,
                  const Executor& executor) {
   const std::size_t n = size();
-  place.resize(n), moving.resize(n), inverse_moment.resize(n);
-  old.resize(n), wrench.resize(n), field_force.resize(n);
+  place.resize(n), moving.resize(n), inverse_moment.resize(n), material.resize(n);
+  old.resize(n), field_force.resize(n);
   executor.for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       const BodyIndex i = body[k];
-      const Shape& shape = shapes.shapes()[bodies.shape[i]];
       const bool dynamic = bodies.motion[i] == Motion::dynamic;
-      place[k] = {bodies.position[i], is_ball(shapes, shape) ? shape.equivalent_radius : 0.0};
-      moving[k] = {bodies.velocity[i], bodies.angular_velocity[i], dynamic ? 1.0 / bodies.mass[i] : 0.0,
-                   bodies.material[i]};
+      place[k] = {bodies.position[i], ball_radius(shapes, bodies.shape[i])};
+      moving[k] = {.linear = bodies.velocity[i],
+                   .inverse_mass = dynamic ? 1.0 / bodies.mass[i] : 0.0,
+                   .angular = bodies.angular_velocity[i]};
+      material[k] = bodies.material[i];
       inverse_moment[k] = dynamic && is_even(bodies.inertia[i]) ? 1.0 / bodies.inertia[i].x : 0.0;
     }
   });
+  find_flats(bodies, shapes);
+  find_turning(bodies, shapes, oriented);
+}
+
+void Slots::find_flats(const BodyView& bodies, const ShapeSet& shapes) {
+  flats.clear();
+  for (Slot k = 0; k < size(); ++k) {
+    const BodyIndex i = body[k];
+    if (moving[k].is_dynamic() || !is_flat(shapes, bodies, i)) continue;
+    const Pose plane = Pose{bodies.position[i], bodies.orientation[i]} * only_primitive(shapes, bodies.shape[i])->local;
+    const Vec3 normal = rotate(plane.orientation, {0, 0, 1});
+    flats.push_back({.slot = k, .normal = normal, .offset = dot(normal, plane.position), .centre = bodies.position[i]});
+  }
+}
+
+void Slots::find_turning(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented) {
   turning.clear(), reach.clear();
-  for (Slot k = 0; k < n; ++k) {
+  for (Slot k = 0; k < size(); ++k) {
     const BodyIndex i = body[k];
     const bool dynamic = moving[k].is_dynamic();
-    const bool plain_ball = place[k].radius > 0.0 && (!dynamic || inverse_moment[k] > 0.0);
+    const bool plain_ball = is_ball(k) && (!dynamic || inverse_moment[k] > 0.0);
     if (bodies.motion[i] == Motion::fixed) continue;
-    if (plain_ball && std::ranges::find(oriented, i) == oriented.end()) continue;
+    if (plain_ball && !std::ranges::binary_search(oriented, i)) continue;
     Turning t{.slot = k, .orientation = bodies.orientation[i], .momentum = {}, .torque = {}, .inverse_inertia = {}};
     if (dynamic) {
       const Vec3 j = bodies.inertia[i];
@@ -97,16 +109,18 @@ void Slots::load(const BodyView& bodies, const ShapeSet& shapes, std::span<const
     }
     inverse_moment[k] = 0.0;
     turning.push_back(t);
-    double farthest = shapes.shapes()[bodies.shape[i]].bounding_radius;
-    if (!std::isfinite(farthest)) {  // a plane: what it can move against counts
-      farthest = 0.0;
-      for (std::size_t other = 0; other < n; ++other) {
-        if (!moving[other].is_dynamic()) continue;
-        farthest = std::max(farthest, norm(place[other].position - place[k].position));
-      }
-    }
-    reach.push_back(farthest);
+    const double farthest = shapes.shapes()[bodies.shape[i]].bounding_radius;
+    reach.push_back(std::isfinite(farthest) ? farthest : farthest_from(k));
   }
+}
+
+/// Of a plane, what it can move against counts.
+double Slots::farthest_from(Slot slot) const {
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (moving[k].is_dynamic()) farthest = std::max(farthest, norm(place[k].position - place[slot].position));
+  }
+  return farthest;
 }
 
 void Slots::store(const BodyState& bodies, double dt, const Executor& executor) const {

@@ -29,10 +29,10 @@ struct alignas(32) Place {
 
 /// What a contact reads of a body: one line of the cache.
 struct alignas(64) Moving {
-  Vec3 linear;                 ///< of the centre of mass, predicted for the time of the forces [m/s]
-  Vec3 angular;                ///< the same [rad/s], world
-  double inverse_mass = 0.0;   ///< [1/kg]; 0 where forces do not move the body
-  std::uint32_t material = 0;  ///< index into Materials
+  Vec3 linear;                ///< of the centre of mass, predicted for the time of the forces [m/s]
+  double inverse_mass = 0.0;  ///< [1/kg]; 0 where forces do not move the body
+  Vec3 angular;               ///< as `linear` [rad/s], world
+  double unused = 0.0;        ///< vector registers hold four
 
   [[nodiscard]] bool is_dynamic() const { return inverse_mass > 0.0; }
 };
@@ -40,13 +40,23 @@ struct alignas(64) Moving {
 /// Force [N] and torque about the centre of mass [N m], world; one line of the cache, too.
 struct alignas(64) Wrench {
   Vec3 force;
+  double unused_force = 0.0;
   Vec3 torque;
+  double unused_torque = 0.0;
 
   Wrench& operator+=(const Wrench& o) {
     force += o.force;
     torque += o.torque;
     return *this;
   }
+};
+
+/// A plane that stands still: what is below n x = offset is solid.
+struct Flat {
+  Slot slot = 0;
+  Vec3 normal;          ///< n, out of the solid [1], world
+  double offset = 0.0;  ///< [m]
+  Vec3 centre;          ///< of its body, about which torques are taken [m]
 };
 
 /// A body whose orientation matters: its shape is no ball. Dynamic ones keep their angular momentum.
@@ -64,29 +74,38 @@ struct Slots {
   std::vector<Slot> slot_of;  ///< by body
   std::vector<Place> place;
   std::vector<Moving> moving;
-  std::vector<Twist> twist;            ///< predicted for the time of the forces [m/s], [rad/s]
-  std::vector<Twist> old;              ///< accelerations at the last evaluation [m/s2], [rad/s2]
-  std::vector<Wrench> wrench;          ///< of contacts
-  std::vector<Vec3> field_force;       ///< of force fields [N]
-  std::vector<Vec3> field_torque;      ///< [N m]; empty where no field turns a body
-  std::vector<double> inverse_moment;  ///< where the three moments are equal [1/(kg m2)]; else 0
-  std::vector<Turning> turning;        ///< by slot
-  std::vector<double> reach;           ///< by entry of turning: farthest point from the centre of mass [m]
+  std::vector<Twist> twist;             ///< predicted for the time of the forces [m/s], [rad/s]
+  std::vector<Twist> old;               ///< accelerations at the last evaluation [m/s2], [rad/s2]
+  std::vector<std::uint32_t> material;  ///< index into Materials
+  std::vector<Wrench> wrench;           ///< of contacts; behind those of the slots, room for parts of sums
+  std::vector<Vec3> field_force;        ///< of force fields [N]
+  std::vector<Vec3> field_torque;       ///< [N m]; empty where no field turns a body
+  std::vector<double> inverse_moment;   ///< where the three moments are equal [1/(kg m2)]; else 0
+  std::vector<Flat> flats;              ///< by slot
+  std::vector<Turning> turning;         ///< by slot
+  std::vector<double> reach;            ///< by entry of turning: farthest point from the centre of mass [m]
 
   [[nodiscard]] std::size_t size() const { return body.size(); }
+  [[nodiscard]] bool is_ball(Slot slot) const { return place[slot].radius > 0.0; }
+  /// Which of the flats the slot is; their number, where it is none.
+  [[nodiscard]] std::size_t flat_of(Slot slot) const;
 
   /// Numbers the bodies along the curve.
   void sort(const BodyView& bodies);
   /// Takes an order that sort() gave before: the body of each slot.
   void set_order(std::span<const BodyIndex> bodies);
-  /// Fills the columns from the bodies.
-  /// Balls turn evenly and are oriented once an outer step, but for those of `oriented`.
+  /// Fills the columns from the bodies. Balls turn evenly and are oriented once an outer step, but for those of `oriented`, which are sorted.
   void load(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented,
             const Executor& executor);
   /// Writes positions, orientations and velocities back. `dt` [s] since load(): balls turn by their mean angular velocity.
   void store(const BodyState& bodies, double dt, const Executor& executor) const;
   /// Writes the poses of `some` bodies, which turn, or all positions, where `some` is empty.
   void store_poses(const BodyState& bodies, std::span<const BodyIndex> some) const;
+
+ private:
+  void find_flats(const BodyView& bodies, const ShapeSet& shapes);
+  void find_turning(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented);
+  double farthest_from(Slot slot) const;
 };
 
 /// Angular velocity of a turning body [rad/s], world.

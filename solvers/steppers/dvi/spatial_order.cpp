@@ -5,6 +5,7 @@
 
 #include "scree/base/release.hpp"
 #include "scree/math/aabb.hpp"
+#include "scree/math/morton.hpp"
 
 namespace scree::dvi {
 
@@ -12,14 +13,6 @@ namespace {
 
 constexpr std::uint32_t kTouched = kNotInProblem - 1;
 constexpr int kBitsPerAxis = 10;
-
-// Spreads the lower 10 bits so that two zeros stand between any two of them.
-std::uint32_t spread(std::uint32_t x) {
-  x = (x | (x << 16)) & 0x030000FFu;
-  x = (x | (x << 8)) & 0x0300F00Fu;
-  x = (x | (x << 4)) & 0x030C30C3u;
-  return (x | (x << 2)) & 0x09249249u;
-}
 
 }  // namespace
 
@@ -59,8 +52,8 @@ void SpatialOrder::encode(const BodyView& bodies) {
   for (Coded& c : coded_) {
     const Vec3 cell = scale * (bodies.position[c.body] - box.lower);
     if (!is_finite(cell)) continue;
-    c.code = spread(static_cast<std::uint32_t>(cell.x)) | (spread(static_cast<std::uint32_t>(cell.y)) << 1) |
-             (spread(static_cast<std::uint32_t>(cell.z)) << 2);
+    c.code = static_cast<std::uint32_t>(morton_code(
+        static_cast<std::uint64_t>(cell.x), static_cast<std::uint64_t>(cell.y), static_cast<std::uint64_t>(cell.z)));
   }
 }
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "scree/ccp/lanes.hpp"
+#include "scree/math/lanes.hpp"
 #include "scree/math/twist.hpp"
 
 namespace scree::packed {

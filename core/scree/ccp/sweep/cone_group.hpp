@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "scree/ccp/lanes.hpp"
+#include "scree/math/lanes.hpp"
 #include "scree/ccp/sweep/update.hpp"
 
 namespace scree::sweep {

@@ -16,7 +16,7 @@
 #include <array>
 #include <cstdint>
 
-#include "scree/ccp/lanes.hpp"
+#include "scree/math/lanes.hpp"
 
 namespace scree::sweep {
 

@@ -1,4 +1,4 @@
-// Four contacts side by side: one lane each. For the inner loops of CCP solvers.
+// Four numbers side by side, one lane each: four contacts in the inner loops of solvers and contact laws.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@ namespace scree {
 
 using Lanes = double __attribute__((vector_size(32)));
 
-/// A vector of each of four contacts.
+/// A vector of each of four.
 struct Lanes3 {
   Lanes x, y, z;
 };
