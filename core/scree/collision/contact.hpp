@@ -28,6 +28,15 @@ struct Contact {
 /// Contacts of a batch of pairs, appended by a narrow phase.
 using ContactBuffer = std::vector<Contact>;
 
+/// What contacts did to a body over a step, where a scheme sums it up itself: in many short steps a body turns, and the sum of
+/// the impulses at its last pose is not the sum of their moments.
+struct ContactLoad {
+  BodyIndex body = 0;
+  Vec3 impulse;          ///< [N s], world
+  Vec3 angular_impulse;  ///< about the centre of mass, wherever that was [N m s], world
+  double work = 0.0;     ///< on the body [J]
+};
+
 /// The contacts of the last step, spans of equal length (or empty where it says so).
 struct ContactView {
   std::span<const Contact> contact;
@@ -40,6 +49,9 @@ struct ContactView {
                                                ///< spin, rolling 1, rolling 2 [N m s]; empty where nothing does
   double age = 0.0;  ///< points, normals and gaps are those of the bodies so long before the end of the step [s]: the
                      ///< whole step for schemes that find contacts at its beginning, else 0
+  std::span<const double> work = {};  ///< that contacts took out of their bodies: lost, or kept in springs [J]; empty
+                                      ///< where -impulse (before + after) / 2 is it
+  std::span<const ContactLoad> loads = {};  ///< by body; empty, or without a body, where its contacts tell as much
 
   [[nodiscard]] std::size_t size() const { return contact.size(); }
 };

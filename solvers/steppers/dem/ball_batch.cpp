@@ -33,7 +33,7 @@ void BallContacts::measure(const Slots& slots, const Evaluation& e, BallWork& w)
     batch.normal.x[k] = inverse * x, batch.normal.y[k] = inverse * y;
     batch.normal.z[k] = distance > 0.0 ? inverse * z : 1.0;
     const double a = w.radius_a[k], b = w.radius_b[k], overlap = a + b - distance;
-    batch.overlap[k] = overlap;
+    w.overlap[k] = overlap;
     batch.radius[k] = a * b / (a + b);
     w.arm_a[k] = a - sunk * overlap;
     w.arm_b[k] = b - sunk * overlap;
@@ -69,14 +69,21 @@ void BallContacts::gather(const Slots& slots, const Evaluation& e, BallWork& w) 
 /// What contacts keep, pair by pair.
 void BallContacts::recall(BallWork& w) const {
   ContactBatch& batch = w.batch;
-  const double* const records = records_.data() + stride_ * w.first;
+  const Lanes* const records = records_.data() + stride_ * w.first;
   const std::uint8_t* const all_flags = flags_.data() + w.first;
   for (std::size_t k = 0; k < batch.count; ++k) {
     const std::uint8_t flags = all_flags[w.hit[k]];
     w.is_new[k] = (flags & kTouching) == 0 ? 1.0 : 0.0;
     w.leaving[k] = (flags & kLeaving) == 0 ? 0.0 : 1.0;
-    const double* const record = records + stride_ * w.hit[k];
-    for (std::size_t j = 0; j < history_; ++j) batch.history[j][k] = record[j];
+  }
+  for (std::size_t first = 0; first < batch.count; first += 4) {
+    for (std::size_t q = 0; q < springs_; ++q) {
+      std::array<Lanes, 4> of;
+      for (std::size_t j = 0; j < 4; ++j) of[j] = records[stride_ * w.hit[first + j] + q];
+      transpose(of[0], of[1], of[2], of[3]);
+      for (std::size_t j = 0; j < 4 && 4 * q + j < history_; ++j) set_lanes_at(of[j], batch.history[4 * q + j], first);
+      if (q + 1 == springs_) set_lanes_at(of[3], w.work, first);
+    }
   }
 }
 
@@ -91,68 +98,95 @@ void BallContacts::apply_law(const Evaluation& e, BallWork& w) const {
                  vz = batch.velocity.z[k] - (rx * ny - ry * nx);
     batch.velocity.x[k] = vx, batch.velocity.y[k] = vy, batch.velocity.z[k] = vz;
     batch.mass[k] = 1.0 / w.inverse_mass[k];
-    const Acting acting = timing.of({w.is_new[k], w.leaving[k]}, batch.overlap[k], -(nx * vx + ny * vy + nz * vz));
+    const Acting acting = timing.of({w.is_new[k], w.leaving[k]}, w.overlap[k], -(nx * vx + ny * vy + nz * vz));
+    batch.overlap[k] = w.overlap[k] + acting.shift;
     batch.ahead[k] = acting.ahead;
     w.acting[k] = acting.part;
     w.leaving[k] = acting.leaving;
   }
   e.law->forces(batch);
+  const double time = kick_time(e);
   for (std::size_t k = 0; k < batch.count; ++k) {
     const double nx = batch.normal.x[k], ny = batch.normal.y[k], nz = batch.normal.z[k];
     const double fx = w.acting[k] * batch.force.x[k], fy = w.acting[k] * batch.force.y[k],
                  fz = w.acting[k] * batch.force.z[k];
     batch.force.x[k] = fx, batch.force.y[k] = fy, batch.force.z[k] = fz;
     w.lever.x[k] = ny * fz - nz * fy, w.lever.y[k] = nz * fx - nx * fz, w.lever.z[k] = nx * fy - ny * fx;
+    w.work[k] -= time * (fx * batch.velocity.x[k] + fy * batch.velocity.y[k] + fz * batch.velocity.z[k]);
   }
   for (std::size_t k = 0; rolls_ && k < batch.count; ++k) {
     batch.torque.x[k] *= w.acting[k], batch.torque.y[k] *= w.acting[k], batch.torque.z[k] *= w.acting[k];
+    w.work[k] -= time * dot(batch.torque[k], batch.spin[k]);
   }
 }
 
-/// Adds the forces to what acts on the bodies.
-void BallContacts::scatter(Slots& slots, BallWork& w) const {
+template <bool kRolls>
+void BallContacts::scatter(Slots& slots, const BallWork& w) const {
   const ContactBatch& batch = w.batch;
   Wrench* const wrench = slots.wrench.data();
   for (std::size_t first = 0; first < batch.count; first += 4) {
     const std::array<Lanes, 4> force = rows(batch.force, first), lever = rows(w.lever, first);
-    std::array<Lanes, 4> torque{};
-    if (rolls_) torque = rows(batch.torque, first);
+    [[maybe_unused]] std::array<Lanes, 4> torque;
+    if constexpr (kRolls) torque = rows(batch.torque, first);
     for (std::size_t j = 0; j < std::min<std::size_t>(4, batch.count - first); ++j) {
       const Pair& pair = pairs_[w.hit[first + j]];
       Wrench &on_a = wrench[pair.to_a], &on_b = wrench[pair.to_b];
+      Lanes turn_a = -splat(w.arm_a[first + j]) * lever[j], turn_b = -splat(w.arm_b[first + j]) * lever[j];
+      if constexpr (kRolls) turn_a -= torque[j], turn_b += torque[j];
       set_four(four_of(on_a) - force[j], on_a);
-      set_four(four_of(on_a, 1) - splat(w.arm_a[first + j]) * lever[j] - torque[j], on_a, 1);
+      set_four(four_of(on_a, 1) + turn_a, on_a, 1);
       set_four(four_of(on_b) + force[j], on_b);
-      set_four(four_of(on_b, 1) - splat(w.arm_b[first + j]) * lever[j] + torque[j], on_b, 1);
+      set_four(four_of(on_b, 1) + turn_b, on_b, 1);
     }
   }
 }
 
-/// Writes down what the contacts keep: springs, impulses, that they touch, since when, and, at the end of the step, by how much.
+/// Adds the forces to what acts on the bodies.
+void BallContacts::scatter(Slots& slots, const BallWork& w) const {
+  rolls_ ? scatter<true>(slots, w) : scatter<false>(slots, w);
+}
+
+/// Springs, work and impulses, pair by pair.
+void BallContacts::write_records(double time, const BallWork& w) {
+  const ContactBatch& batch = w.batch;
+  Lanes* const records = records_.data() + stride_ * w.first;
+  for (std::size_t first = 0; first < batch.count; first += 4) {
+    const std::size_t most = std::min<std::size_t>(4, batch.count - first);
+    for (std::size_t q = 0; q < springs_; ++q) {
+      std::array<Lanes, 4> of{};
+      for (std::size_t j = 0; j < 4 && 4 * q + j < history_; ++j) of[j] = lanes_at(batch.history[4 * q + j], first);
+      if (q + 1 == springs_) of[3] = lanes_at(w.work, first);
+      transpose(of[0], of[1], of[2], of[3]);
+      for (std::size_t j = 0; j < most; ++j) records[stride_ * w.hit[first + j] + q] = of[j];
+    }
+    const std::array<Lanes, 4> force = rows(batch.force, first);
+    for (std::size_t j = 0; j < most; ++j) records[stride_ * w.hit[first + j] + springs_] += time * force[j];
+    for (std::size_t j = 0; rolls_ && j < most; ++j) {
+      const Vec3 moment = time * batch.torque[first + j];
+      records[stride_ * w.hit[first + j] + springs_ + 1] += Lanes{moment.x, moment.y, moment.z, 0.0};
+    }
+  }
+}
+
+/// Writes down what the contacts keep, that they touch, since when, and, at the end of the step, by how much.
 void BallContacts::keep(const Evaluation& e, BallWork& w) {
   const ContactBatch& batch = w.batch;
-  const double time = kick_time(e);
-  double* const records = records_.data() + stride_ * w.first;
+  write_records(kick_time(e), w);
   std::uint8_t* const all_flags = flags_.data() + w.first;
   Vec3* const before = before_.data() + w.first;
   for (std::size_t k = 0; k < batch.count; ++k) {
     const std::size_t pair = w.hit[k];
-    double* const record = records + stride_ * pair;
-    for (std::size_t j = 0; j < history_; ++j) record[j] = batch.history[j][k];
-    double* const impulse = record + history_;
-    impulse[0] += time * batch.force.x[k], impulse[1] += time * batch.force.y[k], impulse[2] += time * batch.force.z[k];
     std::uint8_t& flags = all_flags[pair];
-    if ((flags & kTouched) == 0) before[pair] = batch.velocity[k];
-    flags = static_cast<std::uint8_t>(kTouching | kTouched | (w.leaving[k] != 0.0 ? kLeaving : 0));
-    if (!rolls_) continue;
-    impulse[3] += time * batch.torque.x[k], impulse[4] += time * batch.torque.y[k],
-        impulse[5] += time * batch.torque.z[k];
+    const bool held = w.overlap[k] >= 0.0 || batch.force[k] != Vec3{};  // or only within reach of the law
+    if (held && (flags & kTouched) == 0) before[pair] = batch.velocity[k];
+    flags = static_cast<std::uint8_t>(kTouching | (held ? kTouched : flags & kTouched) |
+                                      (w.leaving[k] != 0.0 ? kLeaving : 0));
   }
   double greatest = w.tally.greatest_overlap;
-  for (std::size_t k = 0; k < batch.count; ++k) greatest = std::max(greatest, batch.overlap[k]);
+  for (std::size_t k = 0; k < batch.count; ++k) greatest = std::max(greatest, w.overlap[k]);
   w.tally.greatest_overlap = greatest;
   for (std::size_t k = 0; e.stage == Stage::last && k < batch.count; ++k) {
-    if (batch.overlap[k] > 0.0) w.tally.add(batch.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
+    if (w.overlap[k] > 0.0) w.tally.add(w.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
   }
 }
 
@@ -161,7 +195,10 @@ void BallContacts::let_go(const BallWork& w) {
   for (std::size_t g = 0; g < w.parted; ++g) {
     const std::size_t pair = w.first + w.gone[g];
     flags_[pair] = static_cast<std::uint8_t>(flags_[pair] & kTouched);
-    std::fill_n(records_.begin() + static_cast<std::ptrdiff_t>(stride_ * pair), history_, 0.0);
+    for (std::size_t q = 0; q < springs_; ++q) {
+      Lanes& springs = records_[stride_ * pair + q];
+      springs = q + 1 < springs_ ? Lanes{} : Lanes{0.0, 0.0, 0.0, springs[3]};
+    }
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "ball_work.hpp"
-#include "scree/math/contact_frame.hpp"
 #include "scree/parallel/executor.hpp"
 #ifdef __AVX__
 #include <immintrin.h>
@@ -14,7 +13,8 @@ namespace scree::dem {
 namespace {
 
 constexpr std::size_t kChunk = Verlet::kChunk;
-constexpr std::size_t kPrefetch = 12;  // pairs ahead
+constexpr std::size_t kPrefetch = 12;              // pairs ahead
+constexpr std::size_t kLine = 64 / sizeof(Lanes);  // of the cache
 constexpr Lanes kAway{-1.0, -1.0, -1.0, 1.0};
 
 /// Bit k: a[k] < b[k].
@@ -41,9 +41,12 @@ void BallContacts::look_at(const Slots& slots, double reach, std::size_t first, 
   const Moving* const moving = slots.moving.data();
   const Pair* const pairs = pairs_.data();
   const std::uint8_t* const flags = flags_.data();
+  const Lanes* const records = records_.data();
   const std::size_t end = pairs_.size() - 1;
   std::size_t hits = 0, parted = 0;
   for (std::size_t group = first; group < last; group += 4) {
+    // What contacts keep is read next, and lies far apart where few of the pairs touch.
+    for (std::size_t at = stride_ * group; at < stride_ * (group + 4); at += kLine) __builtin_prefetch(records + at, 1);
     std::array<Lanes, 4> apart;
     for (std::size_t j = 0; j < 4; ++j) {
       const Slot soon = pairs[std::min(group + j + kPrefetch, end)].b;
@@ -66,8 +69,7 @@ void BallContacts::look_at(const Slots& slots, double reach, std::size_t first, 
   }
   w.batch.count = hits;
   w.parted = parted;
-  // Loops over four at a time run over the end.
-  for (std::size_t k = hits; k % 4 != 0 && hits > 0; ++k) w.hit[k] = w.hit[hits - 1], w.apart[k] = w.apart[hits - 1];
+  fill_lanes(w);
 }
 
 ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std::size_t chunk) {
@@ -119,63 +121,6 @@ ContactTally BallContacts::evaluate(Slots& slots, const Evaluation& e, const Exe
   ContactTally sum;
   for (const ContactTally& tally : tally_) sum += tally;
   return sum;
-}
-
-void BallContacts::begin_step() {
-  for (std::size_t k = 0; k < flags_.size(); ++k) {
-    if ((flags_[k] & kTouched) == 0) continue;
-    flags_[k] = static_cast<std::uint8_t>(flags_[k] & kTouching);
-    std::fill_n(records_.begin() + static_cast<std::ptrdiff_t>(stride_ * k + history_), stride_ - history_, 0.0);
-  }
-}
-
-void BallContacts::report(const Slots& slots, ContactRecords& out) const {
-  for (std::size_t p = 0; p < neighbours_.size(); ++p) {
-    const std::size_t at = place_[p];
-    if ((flags_[at] & kTouched) == 0) continue;
-    if (at < pairs_.size()) {
-      const Pair& pair = pairs_[at];
-      const Place &a = slots.place[pair.a], &b = slots.place[pair.b];
-      const Moving &ma = slots.moving[pair.a], &mb = slots.moving[pair.b];
-      const Vec3 apart = b.position - a.position;
-      const double distance = norm(apart), gap = distance - a.radius - b.radius;
-      const Vec3 n = distance > 0.0 ? (1.0 / distance) * apart : Vec3{0, 0, 1};
-      const Vec3 after = mb.linear - ma.linear - cross(a.radius * ma.angular + b.radius * mb.angular, n);
-      add_to_report(p, {.point = a.position + (a.radius + 0.5 * gap) * n, .normal = n, .gap = gap}, after, out);
-    } else {
-      const FlatPair& pair = flat_pairs_[at - pairs_.size()];
-      const Flat& flat = slots.flats[pair.flat];
-      const Place& ball = slots.place[pair.ball];
-      const Moving& moving = slots.moving[pair.ball];
-      const double gap = dot(flat.normal, ball.position) - flat.offset - ball.radius;
-      const double towards_b = pair.ball_is_b ? 1.0 : -1.0;
-      const Vec3 n = towards_b * flat.normal;
-      const Vec3 after = towards_b * moving.linear - cross(ball.radius * moving.angular, n);
-      const Vec3 point = ball.position - (ball.radius + 0.5 * gap) * flat.normal;
-      add_to_report(p, {.point = point, .normal = n, .gap = gap}, after, out);
-    }
-  }
-}
-
-void BallContacts::add_to_report(std::size_t neighbour, const Contact& contact, const Vec3& after,
-                                 ContactRecords& out) const {
-  const std::size_t at = place_[neighbour];
-  const double* const record = records_.data() + stride_ * at + history_;
-  const Vec3 impulse{record[0], record[1], record[2]};
-  if (impulse == Vec3{} && contact.gap > 0.0) return;  // within reach of a law, but not held
-  const ContactFrame frame = contact_frame(contact.normal);
-  out.contact.push_back(contact);
-  out.contact.back().a = neighbours_[neighbour].a;
-  out.contact.back().b = neighbours_[neighbour].b;
-  out.impulse.push_back(to_contact(frame, impulse));
-  if (rolls_) out.angular_impulse.push_back(to_contact(frame, {record[3], record[4], record[5]}));
-  out.before.push_back(to_contact(frame, before_[at]));
-  out.after.push_back(to_contact(frame, after));
-}
-
-std::size_t BallContacts::memory() const {
-  const auto bytes = [](const auto&... columns) { return ((columns.capacity() * sizeof(*columns.data())) + ...); };
-  return bytes(pairs_, flat_pairs_, neighbours_, place_, records_, flags_, before_, incoming_);
 }
 
 }  // namespace scree::dem

@@ -13,6 +13,7 @@
 #include "contact_tally.hpp"
 #include "evaluation.hpp"
 #include "scree/collision/collider.hpp"
+#include "scree/math/lanes.hpp"
 #include "slots.hpp"
 
 namespace scree {
@@ -35,12 +36,12 @@ class BallContacts {
   static constexpr BodyIndex kGone = ~BodyIndex{0};
 
   /// Forgets the impulses of the last outer step.
-  void begin_step();
+  void begin_step(const Executor& executor);
   /// Overwrites slots.wrench with the forces of all contacts. Writes their histories.
   ContactTally evaluate(Slots& slots, const Evaluation& evaluation, const Executor& executor);
 
-  /// Appends the contacts that touched in this outer step, in order of bodies.
-  void report(const Slots& slots, ContactRecords& out) const;
+  /// Writes the contacts that were held in this outer step, in order of bodies.
+  void report(const Slots& slots, const Executor& executor, ContactRecords& out);
 
   [[nodiscard]] std::size_t history_size() const { return history_; }
   [[nodiscard]] bool rolls() const { return rolls_; }
@@ -69,17 +70,17 @@ class BallContacts {
     Slot slot = 0;
     std::uint32_t ghost = 0;
   };
-  static constexpr unsigned kTouching = 1;  // flags: at the last evaluation,
-  static constexpr unsigned kTouched = 2;   // at some time in this outer step,
+  static constexpr unsigned kTouching = 1;  // flags: within reach at the last evaluation,
+  static constexpr unsigned kTouched = 2;   // touched, or pulled, at some time in this outer step,
   static constexpr unsigned kLeaving = 4;   // and Acting::leaving
 
   // The list.
   void order_pairs(const Slots& slots);
   void order_flat_pairs(const Slots& slots, std::vector<std::uint32_t>& numbers);
   void find_ghosts(std::size_t bodies);
-  void carry_over(std::span<const BodyPair> from, std::span<const std::uint32_t> place, std::span<const double> records,
+  void carry_over(std::span<const BodyPair> from, std::span<const std::uint32_t> place, std::span<const Lanes> records,
                   std::span<const std::uint8_t> flags, std::span<const Vec3> before);
-  void add_to_report(std::size_t neighbour, const Contact& contact, const Vec3& after, ContactRecords& out) const;
+  void report_one(const Slots& slots, std::size_t neighbour, std::size_t to, ContactRecords& out) const;
 
   // Pairs that touch, and those that do no longer.
   ContactTally evaluate_chunk(Slots& slots, const Evaluation& evaluation, std::size_t chunk);
@@ -90,7 +91,9 @@ class BallContacts {
   // Contacts of a batch, step by step: of two balls,
   void measure(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
   void gather(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
-  void scatter(Slots& slots, BallWork& work) const;
+  void scatter(Slots& slots, const BallWork& work) const;
+  template <bool kRolls>
+  void scatter(Slots& slots, const BallWork& work) const;
   // of balls and flats,
   void measure_flats(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
   void gather_flats(const Slots& slots, const Evaluation& evaluation, BallWork& work) const;
@@ -99,21 +102,25 @@ class BallContacts {
   void recall(BallWork& work) const;
   void apply_law(const Evaluation& evaluation, BallWork& work) const;
   void keep(const Evaluation& evaluation, BallWork& work);
+  void write_records(double time, const BallWork& work);
 
-  std::size_t history_ = 0, stride_ = 3;
+  std::size_t history_ = 0, springs_ = 1, stride_ = 2;
   bool rolls_ = false;
   std::vector<BodyPair> neighbours_;  // as given, sorted
   std::vector<std::uint32_t> place_;  // of each: its number in pairs_, or behind those in flat_pairs_
   std::vector<Pair> pairs_;           // by chunk, then by slots
   std::vector<FlatPair> flat_pairs_;  // by ball, then by flat
   std::vector<std::uint32_t> chunk_begin_, flat_begin_;
-  std::vector<double> records_;  // stride_ doubles a pair: history, impulse, moment
+  /// stride_ times four doubles a pair: springs_ times four of history, of which the very last is the work of this outer step
+  /// [J]; the impulse [N s]; where the law resists rolling, the moment [N m s]. Their fourths are zero.
+  std::vector<Lanes> records_;
   std::vector<std::uint8_t> flags_;
   std::vector<Vec3> before_;  // relative velocity when the outer step began, or the surfaces met [m/s], world
   std::vector<std::uint32_t> ghost_begin_;
   std::vector<Incoming> incoming_;  // by chunk of the slot
   std::vector<std::uint32_t> incoming_begin_;
   std::vector<ContactTally> tally_;
+  std::vector<std::size_t> report_begin_;
 };
 
 }  // namespace scree::dem

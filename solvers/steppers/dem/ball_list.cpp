@@ -20,7 +20,8 @@ bool comes_before(const BodyPair& l, const BodyPair& r) { return l.a != r.a ? l.
 void BallContacts::set_layout(std::size_t history, bool rolls) {
   history_ = history;
   rolls_ = rolls;
-  stride_ = history + (rolls ? 6 : 3);
+  springs_ = history / 4 + 1;
+  stride_ = springs_ + (rolls ? 2 : 1);
 }
 
 void BallContacts::set_neighbours(const Slots& slots, std::span<const BodyPair> neighbours) {
@@ -41,12 +42,12 @@ void BallContacts::set_neighbours(const Slots& slots, std::span<const BodyPair> 
   std::erase_if(all, [&](const BodyPair& pair) { return !is_simple(pair); });  // a flat that has begun to move
   const std::vector<BodyPair> old_neighbours = std::exchange(neighbours_, std::move(all));
   const std::vector<std::uint32_t> old_place = std::exchange(place_, {});
-  const std::vector<double> old_records = std::exchange(records_, {});
+  const std::vector<Lanes> old_records = std::exchange(records_, {});
   const std::vector<std::uint8_t> old_flags = std::exchange(flags_, {});
   const std::vector<Vec3> old_before = std::exchange(before_, {});
   order_pairs(slots);
   find_ghosts(slots.size());
-  records_.assign(stride_ * neighbours_.size(), 0.0);
+  records_.assign(stride_ * neighbours_.size(), Lanes{});
   flags_.assign(neighbours_.size(), 0);
   before_.assign(neighbours_.size(), Vec3{});
   carry_over(old_neighbours, old_place, old_records, old_flags, old_before);
@@ -163,7 +164,7 @@ void BallContacts::find_ghosts(std::size_t bodies) {
 
 /// Both lists are sorted: one walk finds what they share.
 void BallContacts::carry_over(std::span<const BodyPair> from, std::span<const std::uint32_t> place,
-                              std::span<const double> records, std::span<const std::uint8_t> flags,
+                              std::span<const Lanes> records, std::span<const std::uint8_t> flags,
                               std::span<const Vec3> before) {
   std::size_t p = 0;
   for (std::size_t old = 0; old < from.size(); ++old) {
@@ -200,8 +201,7 @@ void BallContacts::save(StateWriter& out, std::span<const BodyId> ids) const {
     if ((flags_[at] & kTouching) == 0) continue;
     bodies.push_back(ids[neighbours_[p].a]);
     bodies.push_back(ids[neighbours_[p].b]);
-    history.insert(history.end(), records_.begin() + static_cast<std::ptrdiff_t>(stride_ * at),
-                   records_.begin() + static_cast<std::ptrdiff_t>(stride_ * at + history_));
+    for (std::size_t j = 0; j < history_; ++j) history.push_back(records_[stride_ * at + j / 4][j % 4]);
   }
   out.write("ball_bodies", bodies);
   out.write("ball_history", history);
@@ -213,14 +213,13 @@ void BallContacts::load(const StateReader& in, std::span<const BodyId> ids) {
   const std::size_t m = bodies.size() / 2;
   const auto index = [&](BodyId id) { return static_cast<BodyIndex>(std::ranges::lower_bound(ids, id) - ids.begin()); };
   neighbours_.resize(m), place_.resize(m);
-  records_.assign(stride_ * m, 0.0);
+  records_.assign(stride_ * m, Lanes{});
   flags_.assign(m, kTouching);
   before_.assign(m, Vec3{});
   for (std::size_t p = 0; p < m; ++p) {
     neighbours_[p] = {index(bodies[2 * p]), index(bodies[2 * p + 1])};
     place_[p] = static_cast<std::uint32_t>(p);
-    std::copy_n(history.begin() + static_cast<std::ptrdiff_t>(history_ * p), history_,
-                records_.begin() + static_cast<std::ptrdiff_t>(stride_ * p));
+    for (std::size_t j = 0; j < history_; ++j) records_[stride_ * p + j / 4][j % 4] = history[history_ * p + j];
   }
 }
 

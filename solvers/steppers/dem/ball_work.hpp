@@ -28,6 +28,8 @@ struct BallWork {
   ContactBatch batch;
   std::size_t first = 0;  ///< number of the first pair of this kind in flags, records and velocities before
   alignas(64) Lane radius_a, radius_b, arm_a, arm_b, inverse_mass, is_new, leaving, acting;
+  alignas(64) Lane overlap;    ///< now; that of the batch is its mean over the time that the force stands for [m]
+  alignas(64) Lane work;       ///< that the contact has taken out of its bodies in this outer step [J]
   ContactBatch::Lanes3 rim;    ///< sum of arm times angular velocity [m/s]
   ContactBatch::Lanes3 lever;  ///< normal x force [N]
   ContactTally tally;
@@ -64,6 +66,11 @@ inline std::array<Lanes, 4> rows(const ContactBatch::Lanes3& in, std::size_t k) 
   std::array<Lanes, 4> out{lanes_at(in.x, k), lanes_at(in.y, k), lanes_at(in.z, k), Lanes{}};
   transpose(out[0], out[1], out[2], out[3]);
   return out;
+}
+/// Loops over four lanes at a time run over the end: the last contact stands there once more.
+inline void fill_lanes(BallWork& w) {
+  const std::size_t count = w.batch.count;
+  for (std::size_t k = count; k % 4 != 0; ++k) w.hit[k] = w.hit[count - 1], w.apart[k] = w.apart[count - 1];
 }
 inline Lanes splat(double value) { return Lanes{value, value, value, value}; }
 

@@ -14,16 +14,23 @@ struct ContactRecords {
   std::vector<Vec3> angular_impulse;  ///< [N m s]; empty when the law does not resist rolling
   std::vector<Vec3> before;           ///< [m/s], contact frame
   std::vector<Vec3> after;
+  std::vector<double> work;        ///< [J]
+  std::vector<ContactLoad> loads;  ///< of a whole step, by body
 
   [[nodiscard]] std::size_t size() const { return contact.size(); }
 
-  void clear() { contact.clear(), impulse.clear(), angular_impulse.clear(), before.clear(), after.clear(); }
+  void clear() { resize(0, false); }
+  void resize(std::size_t n, bool rolls) {
+    contact.resize(n), impulse.resize(n), before.resize(n), after.resize(n), work.resize(n);
+    angular_impulse.resize(rolls ? n : 0);
+  }
   void append(const ContactRecords& from, std::size_t k) {
     contact.push_back(from.contact[k]);
     impulse.push_back(from.impulse[k]);
     if (!from.angular_impulse.empty()) angular_impulse.push_back(from.angular_impulse[k]);
     before.push_back(from.before[k]);
     after.push_back(from.after[k]);
+    work.push_back(from.work[k]);
   }
   /// Takes two sorted ones.
   void merge(const ContactRecords& one, const ContactRecords& other) {
@@ -39,7 +46,15 @@ struct ContactRecords {
       }
     }
   }
-  [[nodiscard]] ContactView view() const { return {contact, impulse, before, after, angular_impulse}; }
+  [[nodiscard]] ContactView view() const {
+    return {.contact = contact,
+            .impulse = impulse,
+            .velocity_before = before,
+            .velocity_after = after,
+            .angular_impulse = angular_impulse,
+            .work = work,
+            .loads = loads};
+  }
 };
 
 }  // namespace scree::dem

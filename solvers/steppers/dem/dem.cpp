@@ -109,7 +109,7 @@ void Dem::take_over(const Call& call) {
   slots_.load(bodies, scene_->shapes(), joints_.bodies(), call.services.executor());
   list_is_good_ = list_is_good_ && std::ranges::equal(old_flats, flats());
   refuse_moving_surfaces_of_balls(bodies);
-  balls_.begin_step();
+  balls_.begin_step(call.services.executor());
   shapes_.begin_step(bodies);
   if (!list_is_good_) find_neighbours(call);
 }
@@ -280,15 +280,15 @@ void Dem::watch_drift(const Call& call, double way) {
 
 void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const dem::Motions& work,
                        StepSummary& summary) {
-  ball_records_.clear();
   shape_records_.clear();
-  balls_.report(slots_, ball_records_);
+  balls_.report(slots_, call.services.executor(), ball_records_);
   shapes_.report(slots_, call.bodies.view, call.law.resists_rolling(), shape_records_);
   if (shape_records_.size() == 0) {
     std::swap(records_, ball_records_);
   } else {
     records_.merge(ball_records_, shape_records_);
   }
+  slots_.report_loads(records_.loads);
   if (mean_overlap(tally) > kDeep && !warned_) {
     warned_ = true;
     char text[200];

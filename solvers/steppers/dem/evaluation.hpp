@@ -30,6 +30,7 @@ struct Acting {
   double ahead = 0.0;    ///< ContactBatch::ahead [s]
   double part = 1.0;     ///< [1]
   double leaving = 0.0;  ///< 1: the force stands for all of the time until the next evaluation
+  double shift = 0.0;    ///< from the overlap now to its mean over the time that the force stands for [m]
 };
 
 /// What the evaluation before says of a contact.
@@ -40,8 +41,10 @@ struct Earlier {
 
 /// A force of an evaluation stands for half a step on either side of it where the contact lasts so long; for the whole time
 /// since the surfaces met where the contact is new; and, where they may part before the evaluation after the next, for all of
-/// the time until they part or that next one, which then does not look back. Without this, a dashpot, whose force jumps when
-/// surfaces meet, is right to first order in the step only. Without branches, for loops over lanes.
+/// the time until they part or that next one, which then does not look back. Over that time the law sees the mean overlap.
+/// Without this, a dashpot, whose force jumps when surfaces meet, is right to first order in the step only; with the overlap of
+/// the evaluation itself, springs would push for longer than they are compressed, and elastic impacts gain energy. Without
+/// branches, for loops over lanes.
 class ContactTiming {
  public:
   explicit ContactTiming(const Evaluation& e)
@@ -56,6 +59,8 @@ class ContactTiming {
                   : e.stage == Stage::first ? 2.0 / e.h
                                             : 1.0 / e.h},
         keeps_{e.stage == Stage::last ? 0.0 : 1.0},
+        looks_back_{e.stage == Stage::first ? 0.0 : 0.5},
+        looks_ahead_{e.stage == Stage::last ? 0.0 : 0.5},
         // A neck acts beyond the surfaces, and begins and ends when the law says so.
         whole_{e.reach > 0.0 ? 1.0 : 0.0} {}
 
@@ -68,11 +73,14 @@ class ContactTiming {
     const double before = earlier.is_new != 0.0 ? since : (1.0 - earlier.leaving) * half_;
     const double after = leaving != 0.0 ? time : half_;
     const double part = of_before_ * before + of_after_ * after;
-    return {earlier.is_new != 0.0 ? new_ahead_ * since : old_ahead_, whole_ + (1.0 - whole_) * part, keeps_ * leaving};
+    const double later =
+        looks_ahead_ * (after - half_) - looks_back_ * (before - half_);  // middle of that time, from now
+    return {earlier.is_new != 0.0 ? new_ahead_ * since : old_ahead_, whole_ + (1.0 - whole_) * part, keeps_ * leaving,
+            (1.0 - whole_) * later * approach};
   }
 
  private:
-  double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_, keeps_, whole_;
+  double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_, keeps_, looks_back_, looks_ahead_, whole_;
 };
 
 /// Part of the step that the impulse of an evaluation's force belongs to [s].

@@ -23,6 +23,7 @@ void BallContacts::look_at_flats(const Slots& slots, double reach, std::size_t f
   }
   w.batch.count = hits;
   w.parted = parted;
+  fill_lanes(w);
 }
 
 void BallContacts::measure_flats(const Slots& slots, const Evaluation& e, BallWork& w) const {
@@ -32,7 +33,7 @@ void BallContacts::measure_flats(const Slots& slots, const Evaluation& e, BallWo
     const double radius = slots.place[pair.ball].radius, overlap = w.apart[k][3];
     const Vec3& out = slots.flats[pair.flat].normal;
     w.batch.normal.set(k, pair.ball_is_b ? out : -out);
-    w.batch.overlap[k] = overlap;
+    w.overlap[k] = overlap;
     w.batch.radius[k] = w.radius_a[k] = w.radius_b[k] = radius;
     w.arm_a[k] = radius - sunk * overlap;  // of the ball, whichever it is
   }
@@ -65,7 +66,7 @@ void BallContacts::scatter_flats(Slots& slots, const Evaluation& e, BallWork& w)
     on_ball.force += force;
     on_ball.torque += torque - w.arm_a[k] * w.lever[k];
     // Where the force acts on the flat: at its surface, or midway.
-    const double sunk = e.at_contact_point ? w.arm_a[k] : w.radius_a[k] - w.batch.overlap[k];
+    const double sunk = e.at_contact_point ? w.arm_a[k] : w.radius_a[k] - w.overlap[k];
     const Vec3 at = Vec3{w.apart[k][0], w.apart[k][1], w.apart[k][2]} - sunk * flat.normal;
     on_flat.force -= force;
     on_flat.torque -= cross(at - flat.centre, force) + torque;

@@ -31,7 +31,7 @@ double radius_of(const Slots& slots, const BodyView& bodies, BodyIndex i) {
 struct ShapeContacts::Work {
   ContactBatch batch;
   std::size_t first = 0;  // of them
-  std::array<double, kLanes> acting;
+  std::array<double, kLanes> acting, overlap;
   std::array<bool, kLanes> leaving;
   std::array<Arms, kLanes> arms;
   std::array<double, kLanes> smaller;
@@ -51,6 +51,7 @@ void ShapeContacts::begin_step(const BodyView& bodies) {
   for (std::uint32_t k = 0; k < entries_.size(); ++k) {
     Entry& e = entries_[k];
     e.impulse = e.moment = {};
+    e.work = 0.0;
     e.contact.a = index(e.key.a), e.contact.b = index(e.key.b);
     active_.push_back(k);  // all that is left touches
   }
@@ -195,7 +196,6 @@ void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Eva
     const Vec3 v = surface_velocity(slots, bodies, c, w.arms[k]);
     const double overlap = -c.gap, approach = -dot(v, c.normal);
     const double ra = radius_of(slots, bodies, c.a), rb = radius_of(slots, bodies, c.b);
-    batch.overlap[k] = overlap;
     batch.radius[k] = 1.0 / (1.0 / ra + 1.0 / rb);
     batch.mass[k] = share_[w.first + k] / (a.inverse_mass + b.inverse_mass);
     batch.normal.set(k, c.normal);
@@ -204,6 +204,8 @@ void ShapeContacts::gather(const Slots& slots, const BodyView& bodies, const Eva
     batch.materials[k] = static_cast<std::uint32_t>(slots.material[slots.slot_of[c.a]] * e.materials +
                                                     slots.material[slots.slot_of[c.b]]);
     const Acting acting = timing.of({entry.is_new ? 1.0 : 0.0, entry.leaving ? 1.0 : 0.0}, overlap, approach);
+    w.overlap[k] = overlap;
+    batch.overlap[k] = overlap + acting.shift;
     batch.ahead[k] = acting.ahead;
     w.acting[k] = acting.part;
     w.leaving[k] = acting.leaving != 0.0;
@@ -226,10 +228,11 @@ void ShapeContacts::scatter(const Evaluation& e, Work& w) {
     entry.leaving = w.leaving[k];
     entry.impulse += time * force;
     entry.moment += time * torque;
+    entry.work -= time * (dot(force, w.batch.velocity[k]) + dot(torque, w.batch.spin[k]));
     for (std::size_t j = 0; j < e.history; ++j) entry.history[j] = w.batch.history[j][k];
     w.tally.belt_work -= time * dot(force, w.slip[k]);
-    w.tally.greatest_overlap = std::max(w.tally.greatest_overlap, w.batch.overlap[k]);
-    if (e.stage == Stage::last && w.batch.overlap[k] > 0.0) w.tally.add(w.batch.overlap[k], w.smaller[k]);
+    w.tally.greatest_overlap = std::max(w.tally.greatest_overlap, w.overlap[k]);
+    if (e.stage == Stage::last && w.overlap[k] > 0.0) w.tally.add(w.overlap[k], w.smaller[k]);
   }
 }
 
@@ -269,6 +272,7 @@ void ShapeContacts::report(const Slots& slots, const BodyView& bodies, bool roll
     if (rolls) out.angular_impulse.push_back(to_contact(frame, entry.moment));
     out.before.push_back(to_contact(frame, entry.before));
     out.after.push_back(to_contact(frame, after));
+    out.work.push_back(entry.work);
   }
 }
 

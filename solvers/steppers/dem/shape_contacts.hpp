@@ -45,9 +45,10 @@ class ShapeContacts {
     bool is_new = true;     ///< it was not there at the evaluation before
     bool leaving = false;   ///< Acting::leaving
     std::array<double, ContactBatch::kMostHistory> history{};
-    Vec3 impulse;  ///< [N s], world
-    Vec3 moment;   ///< [N m s], world
-    Vec3 before;   ///< relative velocity when the step began, or the surfaces met [m/s], world
+    Vec3 impulse;       ///< [N s], world
+    Vec3 moment;        ///< [N m s], world
+    double work = 0.0;  ///< taken out of the bodies [J]
+    Vec3 before;        ///< relative velocity when the step began, or the surfaces met [m/s], world
   };
   /// Surface points of a contact relative to the centres of the bodies [m], world.
   struct Arms {

@@ -94,14 +94,18 @@ void Slots::find_flats(const BodyView& bodies, const ShapeSet& shapes) {
 }
 
 void Slots::find_turning(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented) {
-  turning.clear(), reach.clear();
+  turning.clear(), reach.clear(), standing.clear();
   for (Slot k = 0; k < size(); ++k) {
     const BodyIndex i = body[k];
     const bool dynamic = moving[k].is_dynamic();
     const bool plain_ball = is_ball(k) && (!dynamic || inverse_moment[k] > 0.0);
-    if (bodies.motion[i] == Motion::fixed) continue;
+    if (bodies.motion[i] == Motion::fixed) {
+      standing.emplace_back().body = k;
+      continue;
+    }
     if (plain_ball && !std::ranges::binary_search(oriented, i)) continue;
-    Turning t{.slot = k, .orientation = bodies.orientation[i], .momentum = {}, .torque = {}, .inverse_inertia = {}};
+    Turning t{.slot = k, .orientation = bodies.orientation[i]};
+    t.load.body = i;
     if (dynamic) {
       const Vec3 j = bodies.inertia[i];
       t.inverse_inertia = {1.0 / j.x, 1.0 / j.y, 1.0 / j.z};
@@ -148,6 +152,16 @@ void Slots::store_poses(const BodyState& bodies, std::span<const BodyIndex> some
   }
   for (const BodyIndex i : some) bodies.position[i] = place[slot_of[i]].position;
   for (const Turning& t : turning) bodies.orientation[body[t.slot]] = t.orientation;
+}
+
+void Slots::report_loads(std::vector<ContactLoad>& out) const {
+  out.clear();
+  for (const Turning& t : turning) out.push_back(t.load);
+  for (ContactLoad load : standing) {
+    load.body = body[load.body];
+    out.push_back(load);
+  }
+  std::ranges::sort(out, {}, &ContactLoad::body);
 }
 
 }  // namespace scree::dem

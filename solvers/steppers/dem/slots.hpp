@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "scree/collision/contact.hpp"
 #include "scree/math/twist.hpp"
 #include "scree/model/body.hpp"
 
@@ -62,10 +63,11 @@ struct Flat {
 /// A body whose orientation matters: its shape is no ball. Dynamic ones keep their angular momentum.
 struct Turning {
   Slot slot = 0;
-  Quat orientation;      ///< body to world [1]
-  Vec3 momentum;         ///< angular, predicted for the time of the forces [kg m2/s], world
-  Vec3 torque;           ///< of the last evaluation [N m], world
-  Vec3 inverse_inertia;  ///< principal [1/(kg m2)]; zero where torques do not turn the body
+  Quat orientation = {};      ///< body to world [1]
+  Vec3 momentum = {};         ///< angular, predicted for the time of the forces [kg m2/s], world
+  Vec3 torque = {};           ///< of the last evaluation [N m], world
+  Vec3 inverse_inertia = {};  ///< principal [1/(kg m2)]; zero where torques do not turn the body
+  ContactLoad load = {};      ///< of contacts, since load()
 };
 
 /// Columns by slot, all of one length.
@@ -82,8 +84,10 @@ struct Slots {
   std::vector<Vec3> field_torque;       ///< [N m]; empty where no field turns a body
   std::vector<double> inverse_moment;   ///< where the three moments are equal [1/(kg m2)]; else 0
   std::vector<Flat> flats;              ///< by slot
-  std::vector<Turning> turning;         ///< by slot
-  std::vector<double> reach;            ///< by entry of turning: farthest point from the centre of mass [m]
+  /// Loads since load() of what is fixed; their numbers of bodies are slots.
+  std::vector<ContactLoad> standing;
+  std::vector<Turning> turning;  ///< by slot
+  std::vector<double> reach;     ///< by entry of turning: farthest point from the centre of mass [m]
 
   [[nodiscard]] std::size_t size() const { return body.size(); }
   [[nodiscard]] bool is_ball(Slot slot) const { return place[slot].radius > 0.0; }
@@ -101,6 +105,9 @@ struct Slots {
   void store(const BodyState& bodies, double dt, const Executor& executor) const;
   /// Writes the poses of `some` bodies, which turn, or all positions, where `some` is empty.
   void store_poses(const BodyState& bodies, std::span<const BodyIndex> some) const;
+
+  /// What contacts did since load() to the bodies that are fixed or turn as `turning` tells, by body.
+  void report_loads(std::vector<ContactLoad>& out) const;
 
  private:
   void find_flats(const BodyView& bodies, const ShapeSet& shapes);

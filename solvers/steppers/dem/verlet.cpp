@@ -71,15 +71,19 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
   const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
   for (std::size_t k = first; k < last; ++k) {
     Turning& t = slots.turning[k];
+    const Wrench& contact = slots.wrench[t.slot];
     Vec3& spin = slots.moving[t.slot].angular;
     Quat& q = t.orientation;
+    Twist mean{slots.moving[t.slot].linear, spin};
+    t.load.impulse += work.impulse_time * contact.force;
+    t.load.angular_impulse += work.impulse_time * contact.torque;
     if (slots.moving[t.slot].is_dynamic()) {
-      const Vec3 torque =
-          slots.wrench[t.slot].torque + (slots.field_torque.empty() ? Vec3{} : slots.field_torque[t.slot]);
+      const Vec3 torque = contact.torque + (slots.field_torque.empty() ? Vec3{} : slots.field_torque[t.slot]);
       t.momentum += correct * (torque - t.torque);
-      const Vec3 mean_spin = angular_velocity(q, t.inverse_inertia, t.momentum + work.shift * torque);
-      out.contact_work += work.impulse_time * dot(slots.wrench[t.slot].torque, mean_spin);
-      out.force_work += work.impulse_time * dot(torque - slots.wrench[t.slot].torque, mean_spin);
+      mean.linear += (work.shift - ahead) * slots.old[t.slot].linear;  // move_chunk() has moved it on
+      mean.angular = angular_velocity(q, t.inverse_inertia, t.momentum + work.shift * torque);
+      out.contact_work += work.impulse_time * dot(contact.torque, mean.angular);
+      out.force_work += work.impulse_time * dot(torque - contact.torque, mean.angular);
       const Vec3 half = t.momentum + (0.5 * ahead) * torque;
       if (ahead > 0.0) {
         const Vec3 w = angular_velocity(q, t.inverse_inertia, half);
@@ -93,6 +97,7 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
     } else if (spin != Vec3{} && ahead > 0.0) {
       q = normalized(from_rotation_vector(ahead * spin) * q);
     }
+    t.load.work += work.impulse_time * (dot(contact.force, mean.linear) + dot(contact.torque, mean.angular));
     const double turn = norm(spin);
     if (turn > 0.0) out.fastest = std::max(out.fastest, norm(slots.moving[t.slot].linear) + turn * slots.reach[k]);
   }
@@ -108,6 +113,11 @@ Motions Verlet::advance(Slots& slots, double h, Stage stage, const Executor& exe
   executor.for_chunks(slots.turning.size(), kChunk, [&](std::size_t first, std::size_t last) {
     turn_chunk(slots, h, stage, first, last, partial_[chunks + first / kChunk]);
   });
+  const double impulse_time = kick_work(h, stage).impulse_time;
+  for (ContactLoad& load : slots.standing) {
+    load.impulse += impulse_time * slots.wrench[load.body].force;
+    load.angular_impulse += impulse_time * slots.wrench[load.body].torque;
+  }
   Motions sum;
   for (const Motions& part : partial_) {
     sum.contact_work += part.contact_work;

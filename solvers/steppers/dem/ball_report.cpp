@@ -1,0 +1,91 @@
+// What BallContacts tells of an outer step.
+#include <algorithm>
+
+#include "ball_contacts.hpp"
+#include "scree/math/contact_frame.hpp"
+#include "scree/parallel/executor.hpp"
+
+namespace scree::dem {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kPrefetch = 16;  // neighbours ahead
+
+}  // namespace
+
+void BallContacts::begin_step(const Executor& executor) {
+  executor.for_chunks(flags_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if ((flags_[k] & kTouched) == 0) continue;
+      flags_[k] = static_cast<std::uint8_t>(flags_[k] & kTouching);
+      records_[stride_ * k + springs_ - 1][3] = 0.0;
+      for (std::size_t q = springs_; q < stride_; ++q) records_[stride_ * k + q] = Lanes{};
+    }
+  });
+}
+
+void BallContacts::report(const Slots& slots, const Executor& executor, ContactRecords& out) {
+  report_begin_.assign(Executor::chunk_count(neighbours_.size(), kGrain) + 1, 0);
+  executor.for_chunks(neighbours_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    std::size_t count = 0;
+    for (std::size_t p = first; p < last; ++p) count += flags_[place_[p]] / kTouched & 1;
+    report_begin_[first / kGrain + 1] = count;
+  });
+  for (std::size_t c = 1; c < report_begin_.size(); ++c) report_begin_[c] += report_begin_[c - 1];
+  out.resize(report_begin_.back(), rolls_);
+  executor.for_chunks(neighbours_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    std::size_t to = report_begin_[first / kGrain];
+    for (std::size_t p = first; p < last; ++p) {
+      // Neighbours are in the order of bodies, what is kept of them in that of space.
+      const std::size_t soon = place_[std::min(p + kPrefetch, neighbours_.size() - 1)];
+      __builtin_prefetch(&records_[stride_ * soon]);
+      __builtin_prefetch(&before_[soon]);
+      if (soon < pairs_.size()) __builtin_prefetch(&pairs_[soon]);
+      if ((flags_[place_[p]] & kTouched) != 0) report_one(slots, p, to++, out);
+    }
+  });
+}
+
+void BallContacts::report_one(const Slots& slots, std::size_t neighbour, std::size_t to, ContactRecords& out) const {
+  const std::size_t at = place_[neighbour];
+  Vec3 normal, point, after;
+  double gap = 0.0;
+  if (at < pairs_.size()) {
+    const Pair& pair = pairs_[at];
+    const Place &a = slots.place[pair.a], &b = slots.place[pair.b];
+    const Moving &ma = slots.moving[pair.a], &mb = slots.moving[pair.b];
+    const Vec3 apart = b.position - a.position;
+    const double distance = norm(apart);
+    gap = distance - a.radius - b.radius;
+    normal = distance > 0.0 ? (1.0 / distance) * apart : Vec3{0, 0, 1};
+    point = a.position + (a.radius + 0.5 * gap) * normal;
+    after = mb.linear - ma.linear - cross(a.radius * ma.angular + b.radius * mb.angular, normal);
+  } else {
+    const FlatPair& pair = flat_pairs_[at - pairs_.size()];
+    const Flat& flat = slots.flats[pair.flat];
+    const Place& ball = slots.place[pair.ball];
+    const Moving& moving = slots.moving[pair.ball];
+    const double towards_b = pair.ball_is_b ? 1.0 : -1.0;
+    gap = dot(flat.normal, ball.position) - flat.offset - ball.radius;
+    normal = towards_b * flat.normal;
+    point = ball.position - (ball.radius + 0.5 * gap) * flat.normal;
+    after = towards_b * moving.linear - cross(ball.radius * moving.angular, normal);
+  }
+  const ContactFrame frame = contact_frame(normal);
+  const Lanes* const record = records_.data() + stride_ * at + springs_;
+  const auto vector = [](const Lanes& of) { return Vec3{of[0], of[1], of[2]}; };
+  out.contact[to] = {
+      .a = neighbours_[neighbour].a, .b = neighbours_[neighbour].b, .point = point, .normal = normal, .gap = gap};
+  out.impulse[to] = to_contact(frame, vector(record[0]));
+  if (rolls_) out.angular_impulse[to] = to_contact(frame, vector(record[1]));
+  out.work[to] = record[-1][3];
+  out.before[to] = to_contact(frame, before_[at]);
+  out.after[to] = to_contact(frame, after);
+}
+
+std::size_t BallContacts::memory() const {
+  const auto bytes = [](const auto&... columns) { return ((columns.capacity() * sizeof(*columns.data())) + ...); };
+  return bytes(pairs_, flat_pairs_, neighbours_, place_, records_, flags_, before_, incoming_);
+}
+
+}  // namespace scree::dem
