@@ -251,22 +251,24 @@ TEST(CollisionPipeline, result_depends_on_the_bodies_only) {
 
 // Law: neighbours are what lies within the skin, whether or not boxes are looked at; velocities do not matter.
 TEST(CollisionPipeline, neighbours_are_within_the_skin) {
-  Scene scene;
-  AllPairsOfBalls balls_alone;
-  scene.add(shape_data(plane_data()), {0, 0, -1.09}, {}, {}, Motion::fixed);
-  scene.add(ball(1.0), {0, 0, 0}, {9, 9, 9});
-  scene.add(ball(1.0), {2.09, 0, 0});
-  scene.add(ball(1.0), {0, 2.11, 0});
-  scene.add(ball(1.0), {-1.99, 0, 0.02});
-  for (BroadPhase* broad : std::initializer_list<BroadPhase*>{&scene.broad, &balls_alone}) {
-    EchoPhase narrow{kAllKinds};
-    CollisionPipeline pipeline{scene.shapes, *broad, {&narrow}, scene.executor};
-    const NeighbourView found = pipeline.find_neighbours(scene.bodies.view(), 0.1);
-    ASSERT_EQ(found.balls.size(), 2u);
-    EXPECT_EQ(found.balls[0].a, 1u);
-    EXPECT_EQ(found.balls[0].b, 2u);
-    EXPECT_EQ(found.balls[1].b, 4u);
-    EXPECT_EQ(found.others.size(), 4u) << "the plane and three balls; one is 2 cm too high";
+  for (const Motion motion : {Motion::fixed, Motion::kinematic}) {
+    Scene scene;
+    AllPairsOfBalls balls_alone;
+    scene.add(shape_data(plane_data()), {0, 0, -1.09}, {}, {}, motion);
+    scene.add(ball(1.0), {0, 0, 0}, {9, 9, 9});
+    scene.add(ball(1.0), {2.09, 0, 0});
+    scene.add(ball(1.0), {0, 2.11, 0});
+    scene.add(ball(1.0), {-1.99, 0, 0.02});
+    for (BroadPhase* broad : std::initializer_list<BroadPhase*>{&scene.broad, &balls_alone}) {
+      EchoPhase narrow{kAllKinds};
+      CollisionPipeline pipeline{scene.shapes, *broad, {&narrow}, scene.executor};
+      const NeighbourView found = pipeline.find_neighbours(scene.bodies.view(), 0.1);
+      std::vector<BodyPair> expected{{1, 2}, {1, 4}};
+      // The plane and three balls; one is 2 cm too high.
+      if (motion == Motion::fixed) expected = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}};
+      EXPECT_TRUE(std::ranges::equal(found.balls, expected));
+      EXPECT_EQ(found.others.size(), motion == Motion::fixed ? 0u : 4u) << "a plane at rest is simple";
+    }
   }
 }
 

@@ -195,20 +195,24 @@ void BallContacts::renumber(std::span<const BodyIndex> index) {
 
 void BallContacts::save(StateWriter& out, std::span<const BodyId> ids) const {
   std::vector<std::uint64_t> bodies;
+  std::vector<std::uint64_t> leaving;
   std::vector<double> history;
   for (std::size_t p = 0; p < neighbours_.size(); ++p) {
     const std::uint32_t at = place_[p];
     if ((flags_[at] & kTouching) == 0) continue;
+    leaving.push_back((flags_[at] & kLeaving) != 0 ? 1 : 0);
     bodies.push_back(ids[neighbours_[p].a]);
     bodies.push_back(ids[neighbours_[p].b]);
     for (std::size_t j = 0; j < history_; ++j) history.push_back(records_[stride_ * at + j / 4][j % 4]);
   }
   out.write("ball_bodies", bodies);
+  out.write("ball_leaving", leaving);
   out.write("ball_history", history);
 }
 
 void BallContacts::load(const StateReader& in, std::span<const BodyId> ids) {
   const std::vector<std::uint64_t> bodies = in.integers("ball_bodies");
+  const std::vector<std::uint64_t> leaving = in.integers("ball_leaving");
   const std::vector<double> history = in.doubles("ball_history");
   const std::size_t m = bodies.size() / 2;
   const auto index = [&](BodyId id) { return static_cast<BodyIndex>(std::ranges::lower_bound(ids, id) - ids.begin()); };
@@ -219,6 +223,7 @@ void BallContacts::load(const StateReader& in, std::span<const BodyId> ids) {
   for (std::size_t p = 0; p < m; ++p) {
     neighbours_[p] = {index(bodies[2 * p]), index(bodies[2 * p + 1])};
     place_[p] = static_cast<std::uint32_t>(p);
+    if (leaving[p] != 0) flags_[p] |= kLeaving;
     for (std::size_t j = 0; j < history_; ++j) records_[stride_ * p + j / 4][j % 4] = history[history_ * p + j];
   }
 }

@@ -17,7 +17,7 @@ void BallContacts::begin_step(const Executor& executor) {
   executor.for_chunks(flags_.size(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       if ((flags_[k] & kTouched) == 0) continue;
-      flags_[k] = static_cast<std::uint8_t>(flags_[k] & kTouching);
+      flags_[k] = static_cast<std::uint8_t>(flags_[k] & (kTouching | kLeaving));
       records_[stride_ * k + springs_ - 1][3] = 0.0;
       for (std::size_t q = springs_; q < stride_; ++q) records_[stride_ * k + q] = Lanes{};
     }

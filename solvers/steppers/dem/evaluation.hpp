@@ -58,8 +58,8 @@ class ContactTiming {
         of_after_{e.stage == Stage::last    ? 0.0
                   : e.stage == Stage::first ? 2.0 / e.h
                                             : 1.0 / e.h},
-        keeps_{e.stage == Stage::last ? 0.0 : 1.0},
-        looks_back_{e.stage == Stage::first ? 0.0 : 0.5},
+        judges_{e.stage == Stage::last ? 0.0 : 1.0},
+        begins_{e.stage == Stage::first ? 1.0 : 0.0},
         looks_ahead_{e.stage == Stage::last ? 0.0 : 0.5},
         // A neck acts beyond the surfaces, and begins and ends when the law says so.
         whole_{e.reach > 0.0 ? 1.0 : 0.0} {}
@@ -68,19 +68,19 @@ class ContactTiming {
   [[nodiscard]] Acting of(Earlier earlier, double overlap, double approach) const {
     const double way = h_ * std::abs(approach), closed = std::max(overlap, 0.0);
     const double time = closed < way ? h_ * (closed / way) : h_;  // to cover the overlap, at most a step
-    const double since = approach > 0.0 ? time : h_;
+    // A step begins where the one before has just asked: nothing is new but what was there from the start.
+    const double since = begins_ != 0.0 ? half_ : approach > 0.0 ? time : h_;
     const double leaving = approach < 0.0 && closed < 2.0 * way ? 1.0 : 0.0;
     const double before = earlier.is_new != 0.0 ? since : (1.0 - earlier.leaving) * half_;
     const double after = leaving != 0.0 ? time : half_;
     const double part = of_before_ * before + of_after_ * after;
-    const double later =
-        looks_ahead_ * (after - half_) - looks_back_ * (before - half_);  // middle of that time, from now
-    return {earlier.is_new != 0.0 ? new_ahead_ * since : old_ahead_, whole_ + (1.0 - whole_) * part, keeps_ * leaving,
-            (1.0 - whole_) * later * approach};
+    const double later = looks_ahead_ * (after - half_) - 0.5 * (before - half_);  // middle of that time, from now
+    return {earlier.is_new != 0.0 ? new_ahead_ * since : old_ahead_, whole_ + (1.0 - whole_) * part,
+            judges_ != 0.0 ? leaving : (1.0 - earlier.is_new) * earlier.leaving, (1.0 - whole_) * later * approach};
   }
 
  private:
-  double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_, keeps_, looks_back_, looks_ahead_, whole_;
+  double h_, half_, old_ahead_, new_ahead_, of_before_, of_after_, judges_, begins_, looks_ahead_, whole_;
 };
 
 /// Part of the step that the impulse of an evaluation's force belongs to [s].

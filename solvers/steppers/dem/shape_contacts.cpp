@@ -281,7 +281,8 @@ void ShapeContacts::save(StateWriter& out, std::size_t history) const {
   std::vector<double> values;
   for (const Entry& e : entries_) {
     if (!e.touching) continue;
-    keys.insert(keys.end(), {e.key.a, e.key.b, e.key.primitive_a, e.key.primitive_b, e.key.feature});
+    keys.insert(keys.end(),
+                {e.key.a, e.key.b, e.key.primitive_a, e.key.primitive_b, e.key.feature, e.leaving ? 1U : 0U});
     values.insert(values.end(), e.history.begin(), e.history.begin() + static_cast<std::ptrdiff_t>(history));
     const Vec3 &point = e.contact.point, &normal = e.contact.normal;
     values.insert(values.end(), {point.x, point.y, point.z, normal.x, normal.y, normal.z});
@@ -293,13 +294,14 @@ void ShapeContacts::save(StateWriter& out, std::size_t history) const {
 void ShapeContacts::load(const StateReader& in, std::size_t history) {
   const std::vector<std::uint64_t> keys = in.integers("shape_keys");
   const std::vector<double> values = in.doubles("shape_history");
-  entries_.assign(keys.size() / 5, Entry{});
+  entries_.assign(keys.size() / 6, Entry{});
   const double* value = values.data();
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     Entry& e = entries_[k];
-    const std::uint64_t* const key = keys.data() + 5 * k;
+    const std::uint64_t* const key = keys.data() + 6 * k;
     e.key = {key[0], key[1], static_cast<std::uint32_t>(key[2]), static_cast<std::uint32_t>(key[3]), key[4]};
     e.touching = true;
+    e.leaving = key[5] != 0;
     std::copy_n(value, history, e.history.begin());
     value += history;
     e.contact.point = {value[0], value[1], value[2]};
