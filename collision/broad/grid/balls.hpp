@@ -65,13 +65,9 @@ class Balls {
   }
   void release() { UninitialisedVector<float>{}.swap(all_); }
 
-  /// Two sorted items whose balls meet.
-  struct Near {
-    std::uint32_t one, other;
-  };
   /// Writes the pairs of i with those of first..last-1 that it meets to `near`, which has room for kLanes more than that, and
   /// returns how many. What is not a number meets all.
-  std::size_t meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const;
+  std::size_t meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, CandidatePair* near) const;
   /// Those of short rows that ball i meets, as Rows::items has them. What is not a number meets all.
   [[nodiscard]] std::uint64_t meeting_short(std::uint32_t i, const Rows& rows) const;
 
@@ -99,7 +95,15 @@ alignas(32) inline constexpr auto kFrontLanes = [] {
   return table;
 }();
 
-inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const {
+inline __m256 sum_of_squares(__m256 x, __m256 y, __m256 z) {
+#ifdef __FMA__
+  return _mm256_fmadd_ps(z, z, _mm256_fmadd_ps(y, y, _mm256_mul_ps(x, x)));
+#else
+  return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(z, z));
+#endif
+}
+
+inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, CandidatePair* near) const {
   const float *const xs = all_.data(), *const ys = xs + stride_, *const zs = ys + stride_, *const rs = zs + stride_;
   const __m256 x = _mm256_set1_ps(x_of(i)), y = _mm256_set1_ps(y_of(i)), z = _mm256_set1_ps(z_of(i));
   const __m256 r = _mm256_set1_ps(r_of(i));
@@ -110,9 +114,8 @@ inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uin
   do {
     const __m256 dx = _mm256_sub_ps(_mm256_loadu_ps(xs + k), x), dy = _mm256_sub_ps(_mm256_loadu_ps(ys + k), y);
     const __m256 dz = _mm256_sub_ps(_mm256_loadu_ps(zs + k), z), radii = _mm256_add_ps(_mm256_loadu_ps(rs + k), r);
-    const __m256 squares =
-        _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
-    const int hits = _mm256_movemask_ps(_mm256_cmp_ps(squares, _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
+    const int hits =
+        _mm256_movemask_ps(_mm256_cmp_ps(sum_of_squares(dx, dy, dz), _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
     const std::uint32_t left = std::min(last > k ? last - k : 0u, 8u);
     const std::uint32_t meet = static_cast<std::uint32_t>(hits) & ((1u << left) - 1u);
     const __m256i front = _mm256_load_si256(reinterpret_cast<const __m256i*>(kFrontLanes[meet].data()));
@@ -132,22 +135,23 @@ inline std::uint64_t Balls::meeting_short(std::uint32_t i, const Rows& rows) con
   const float *const xs = all_.data(), *const ys = xs + stride_, *const zs = ys + stride_, *const rs = zs + stride_;
   const __m256 x = _mm256_set1_ps(x_of(i)), y = _mm256_set1_ps(y_of(i)), z = _mm256_set1_ps(z_of(i));
   const __m256 r = _mm256_set1_ps(r_of(i));
-  std::uint64_t meet = 0;
-  for (std::size_t row = 0; row < Rows::kRows; ++row) {
+  const auto meets = [&](std::size_t row) {
     const std::uint32_t k = rows.first[row];
     const __m256 dx = _mm256_sub_ps(x, _mm256_loadu_ps(xs + k)), dy = _mm256_sub_ps(y, _mm256_loadu_ps(ys + k));
     const __m256 dz = _mm256_sub_ps(z, _mm256_loadu_ps(zs + k)), radii = _mm256_add_ps(r, _mm256_loadu_ps(rs + k));
-    const __m256 squares =
-        _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(dx, dx), _mm256_mul_ps(dy, dy)), _mm256_mul_ps(dz, dz));
-    const int hits = _mm256_movemask_ps(_mm256_cmp_ps(squares, _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
-    meet |= std::uint64_t{static_cast<std::uint32_t>(hits)} << (8 * row);
-  }
+    const int hits =
+        _mm256_movemask_ps(_mm256_cmp_ps(sum_of_squares(dx, dy, dz), _mm256_mul_ps(radii, radii), _CMP_NGT_UQ));
+    return std::uint64_t{static_cast<std::uint32_t>(hits)} << (8 * row);
+  };
+  std::uint64_t meet = 0;
+  for (std::size_t row = 0; row < Rows::kRows; ++row) meet |= meets(row);
+  for (std::size_t row = Rows::kRows; row < rows.count; ++row) meet |= meets(row);
   return meet & rows.items;
 }
 
 #else
 
-inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, Near* near) const {
+inline std::size_t Balls::meeting(std::uint32_t i, std::uint32_t first, std::uint32_t last, CandidatePair* near) const {
   std::size_t count = 0;
   for (std::uint32_t k = first; k < last; ++k) {
     const float dx = x_of(k) - x_of(i), dy = y_of(k) - y_of(i), dz = z_of(k) - z_of(i), radii = r_of(k) + r_of(i);

@@ -39,7 +39,7 @@ class Grid : public BroadPhase {
   };
   /// What the search of a chunk finds.
   struct Found {
-    UninitialisedVector<grid::Balls::Near> near;  // of some items
+    UninitialisedVector<CandidatePair> near;  // sorted items, or boxes where these are balls alone
     std::size_t near_count = 0;
     std::vector<CandidatePair> pairs;
 
@@ -93,6 +93,11 @@ class Grid : public BroadPhase {
   void search(std::size_t first, std::size_t last, Found& found, std::vector<CandidatePair>& out) const;
   void find_rows(const grid::Level& level, std::uint32_t cell, grid::Rows& rows) const;
   void search_long_rows(std::uint32_t i, const grid::Rows& rows, Found& found) const;
+  template <bool kNamed>
+  void search_short_rows(std::uint32_t i, const grid::Rows& rows, Found& found) const;
+  template <bool kNamed>
+  void search_item(std::uint32_t i, std::size_t own, grid::Rows* rows, Found& found) const;
+  void name_boxes(Found& found, std::size_t from) const;
   /// Looks for what item i can meet among the items from `begin` on in the cells of `level`.
   void search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const;
   /// Appends those of found.near that meet to `out`.

@@ -8,30 +8,39 @@
 namespace scree::grid {
 
 /// Five rows of cells: ranges of sorted items. The first one begins behind the item in question, and may end before it begins.
+/// Of the others, up to three may hold more than eight items; what is beyond these is a row more.
 struct Rows {
   static constexpr std::size_t kRows = 5;
-  std::array<std::uint32_t, 9> first{};  // the last four are never used
+  static constexpr std::size_t kMost = 8;  // a bit an item, a byte a row
+
+  std::array<std::uint32_t, kMost + 1> first{};  // the last one is never used
   std::array<std::uint32_t, kRows> last{};
-  bool are_short = false;   // no row has more items than there are lanes
-  std::uint64_t items = 0;  // of short rows: a bit an item, a byte a row
+  std::size_t count = kRows;  // of rows, with those that hold what is beyond eight
+  bool are_short = false;     // as described; otherwise only first and last of five rows mean something
+  std::uint64_t items = 0;    // of short rows: a bit an item, a byte a row
 
   /// The item of a bit; of bit 64 any.
   [[nodiscard]] std::uint32_t item(unsigned bit) const { return first[bit / 8] + bit % 8; }
 
-  /// Sets row k, from 1 on, in order.
+  /// To be called before set().
+  void clear() {
+    count = kRows;
+    items = 0;
+    others_are_short_ = true;
+  }
+  /// Sets row k, from 1 on.
   void set(std::size_t k, std::uint32_t begin, std::uint32_t end) {
     const std::uint32_t length = end - begin;
-    if (k == 1) longest_other_ = 0, items = 0;
     first[k] = begin;
     last[k] = end;
-    longest_other_ = std::max(longest_other_, length);
     items |= lowest(length) << (8 * k);
+    if (length > 8) add_beyond(begin + 8, length - 8);
   }
   /// Sets the first row, when the others are set.
   void begin_at(std::uint32_t item) {
     first[0] = item;
     const std::uint32_t length = last[0] > item ? last[0] - item : 0;
-    are_short = std::max(longest_other_, length) <= 8;
+    are_short = others_are_short_ & (length <= 8);
     items = (items & ~std::uint64_t{0xff}) | lowest(length);
   }
   /// How many items the rows hold, of which the first one begins at `begin`.
@@ -43,9 +52,16 @@ struct Rows {
 
  private:
   /// So many bits, eight at most.
-  static std::uint64_t lowest(std::uint32_t count) { return 0xffu >> (8u - std::min(count, 8u)); }
+  static std::uint64_t lowest(std::uint32_t length) { return 0xffu >> (8u - std::min(length, 8u)); }
+  void add_beyond(std::uint32_t begin, std::uint32_t length) {
+    others_are_short_ &= length <= 8 && count < kMost;
+    if (!others_are_short_) return;
+    first[count] = begin;
+    items |= lowest(length) << (8 * count);
+    ++count;
+  }
 
-  std::uint32_t longest_other_ = 0;
+  bool others_are_short_ = true;
 };
 
 }  // namespace scree::grid

@@ -41,7 +41,12 @@ bool Grid::are_wanted(const Item& item, const Item& other) {
 }
 
 void Grid::keep_meeting(Found& found, std::vector<CandidatePair>& out) const {
-  const auto box_of = [&](std::uint32_t item) { return order_[item]; };
+  if (balls_alone_) {
+    // These are boxes already, and wanted.
+    out.insert(out.end(), found.near.begin(), found.near.begin() + static_cast<std::ptrdiff_t>(found.near_count));
+    found.near_count = 0;
+    return;
+  }
   std::array<CandidatePair, 128> batch;
   for (std::size_t first = 0; first < found.near_count; first += batch.size()) {
     const std::size_t last = std::min(first + batch.size(), found.near_count);
@@ -49,12 +54,19 @@ void Grid::keep_meeting(Found& found, std::vector<CandidatePair>& out) const {
     std::size_t count = 0;
     for (std::size_t k = first; k < last; ++k) {
       const auto [one, other] = found.near[k];
-      batch[count] = {box_of(one), box_of(other)};
-      count += balls_alone_ || are_wanted(sorted_[one], sorted_[other]);
+      batch[count] = {order_[one], order_[other]};
+      count += are_wanted(sorted_[one], sorted_[other]);
     }
     out.insert(out.end(), batch.begin(), batch.begin() + static_cast<std::ptrdiff_t>(count));
   }
   found.near_count = 0;
+}
+
+/// Items become boxes, from a place on.
+void Grid::name_boxes(Found& found, std::size_t from) const {
+  for (std::size_t k = from; k < found.near_count; ++k) {
+    found.near[k] = {order_[found.near[k].a], order_[found.near[k].b]};
+  }
 }
 
 void Grid::search_level(std::uint32_t i, const grid::Level& level, std::uint32_t begin, Found& found) const {
@@ -101,6 +113,7 @@ void Grid::find_rows(const grid::Level& level, std::uint32_t cell, grid::Rows& r
   const auto [width, depth, height] = level.stored();
   const std::size_t line = width, plane = std::size_t{width} * depth;
   const std::uint32_t* const begin = cell_begin_.data() + cell;
+  rows.clear();
   rows.last[0] = begin[2];
   const auto set = [&](std::size_t k, std::size_t ahead) { rows.set(k, begin[ahead - 1], begin[ahead + 2]); };
   set(1, line);
@@ -115,51 +128,65 @@ void Grid::search_long_rows(std::uint32_t i, const grid::Rows& rows, Found& foun
   }
 }
 
+template <bool kNamed>
+void Grid::search_short_rows(std::uint32_t i, const grid::Rows& rows, Found& found) const {
+  std::uint64_t meet = balls_.meeting_short(i, rows);
+  const auto count = static_cast<std::size_t>(std::popcount(meet));
+  CandidatePair* const near = &found.near[found.near_count];
+  const std::uint32_t* const order = order_.data();
+  const std::uint32_t one = kNamed ? order[i] : i;
+  const auto write_next = [&](CandidatePair& place) {
+    const std::uint32_t other = rows.item(static_cast<unsigned>(std::countr_zero(meet)));
+    place = {one, kNamed ? order[other] : other};
+    meet &= meet - 1;
+  };
+  // Few have more than four, which are written without a look at how many there are.
+  for (std::size_t n = 0; n < 4; ++n) write_next(near[n]);
+  for (std::size_t n = 4; n < count; ++n) write_next(near[n]);
+  found.near_count += count;
+}
+
+/// Looks for what item i can meet in the rows round its cell and among the coarser levels.
+template <bool kNamed>
+void Grid::search_item(std::uint32_t i, std::size_t own, grid::Rows* rows, Found& found) const {
+  std::size_t before = found.near_count;
+  // Of two boxes of one level the first one finds the other.
+  if (rows == nullptr) {
+    search_level(i, levels_[own], i + 1, found);
+  } else {
+    rows->begin_at(i + 1);
+    if (rows->are_short) {
+      search_short_rows<kNamed>(i, *rows, found);
+      before = found.near_count;
+    } else {
+      search_long_rows(i, *rows, found);
+    }
+  }
+  for (std::size_t l = own + 1; l < level_count_; ++l) {
+    if (levels_[l].boxes > 0) search_level(i, levels_[l], 0, found);
+  }
+  if (kNamed) name_boxes(found, before);
+}
+
 void Grid::search(std::size_t first, std::size_t last, Found& found, std::vector<CandidatePair>& out) const {
   found.near_count = 0;
   const auto at = std::upper_bound(cell_begin_.begin(), cell_begin_.end(), static_cast<std::uint32_t>(first));
   auto cell = static_cast<std::uint32_t>(at - cell_begin_.begin()) - 1;
   std::size_t own = 0;
-  grid::Rows rows;
-  const auto search_short_rows = [&](std::uint32_t i) {
-    std::uint64_t meet = balls_.meeting_short(i, rows);
-    const auto count = static_cast<std::size_t>(std::popcount(meet));
-    grid::Balls::Near* const near = &found.near[found.near_count];
-    const auto write_next = [&](grid::Balls::Near& place) {
-      place = {i, rows.item(static_cast<unsigned>(std::countr_zero(meet)))};
-      meet &= meet - 1;
-    };
-    // Few have more than four, which are written without a look at how many there are.
-    for (std::size_t n = 0; n < 4; ++n) write_next(near[n]);
-    for (std::size_t n = 4; n < count; ++n) write_next(near[n]);
-    found.near_count += count;
-  };
+  grid::Rows known;
   for (auto i = static_cast<std::uint32_t>(first); i < last; ++cell) {
     const auto end = static_cast<std::uint32_t>(std::min<std::size_t>(cell_begin_[std::size_t{cell} + 1], last));
     if (i >= end) continue;
     while (own + 1 < level_count_ && cell >= levels_[own + 1].first_cell) ++own;
-    const grid::Level& level = levels_[own];
-    const bool wrapped = level.is_wrapped();
-    std::size_t most = 0;
-    if (!wrapped) {
-      find_rows(level, cell, rows);
-      most = rows.count_from(i);
-    }
+    grid::Rows* const rows = levels_[own].is_wrapped() ? nullptr : &known;
+    if (rows != nullptr) find_rows(levels_[own], cell, known);
+    const std::size_t most = rows != nullptr ? rows->count_from(i) : 0;
     for (; i < end; ++i) {
-      // Of two boxes of one level the first one finds the other.
-      if (wrapped) {
-        search_level(i, level, i + 1, found);
+      found.make_room(most);
+      if (balls_alone_) {
+        search_item<true>(i, own, rows, found);
       } else {
-        rows.begin_at(i + 1);
-        found.make_room(most);
-        if (rows.are_short) {
-          search_short_rows(i);
-        } else {
-          search_long_rows(i, rows, found);
-        }
-      }
-      for (std::size_t l = own + 1; l < level_count_; ++l) {
-        if (levels_[l].boxes > 0) search_level(i, levels_[l], 0, found);
+        search_item<false>(i, own, rows, found);
       }
       // While they are in the cache.
       if (found.near_count >= kNear) keep_meeting(found, out);

@@ -43,11 +43,24 @@ std::array<int, 2> corners_of(TrianglePart part) {
 /// Angle between two edges that leave a vertex [rad].
 double angle(const Vec3& u, const Vec3& v) { return std::atan2(norm(cross(u, v)), dot(u, v)); }
 
+/// True when p lies to the left of the way from u to v, seen from above. Of two triangles that share an edge each is asked the
+/// other way round, and gets the opposite answer: what lies on the edge counts as lying a little further along x, and still
+/// less along y.
+bool passes_left(const Vec3& u, const Vec3& v, const Vec3& p) {
+  const bool turned = u.x != v.x ? u.x > v.x : u.y > v.y;
+  const Vec3 &from = turned ? v : u, &to = turned ? u : v;
+  const double side = (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
+  // The derivative along x, and where that vanishes along y.
+  const bool left = side != 0.0 ? side > 0.0 : (to.y != from.y ? to.y < from.y : to.x > from.x);
+  return left != turned;
+}
+
 }  // namespace
 
 MeshTree::MeshTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   weld(vertices, triangles);
   find_closed();
+  find_bounded();
   if (!entries_.empty()) build(0, static_cast<std::uint32_t>(entries_.size()));
 }
 
@@ -87,6 +100,16 @@ void MeshTree::find_closed() {
             std::all_of(edges.begin(), edges.end(), [&](const auto& e) {
               return std::binary_search(edges.begin(), edges.end(), std::array{e[1], e[0]});
             });
+}
+
+void MeshTree::find_bounded() {
+  // Six times the volume, from tetrahedra with a corner in common.
+  double volume = 0.0;
+  for (const Entry& e : entries_) {
+    const Vec3& apex = entries_[0].a;
+    volume += dot(e.a - apex, cross(e.b - apex, e.c - apex));
+  }
+  bounded_ = closed_ && volume > 0.0;
 }
 
 void MeshTree::build(std::uint32_t first, std::uint32_t last) {
@@ -135,6 +158,29 @@ void MeshTree::collect(const Vec3& p, double radius, std::vector<MeshHit>& hits)
     }
     ++n;
   }
+}
+
+/// True when a line upwards from p leaves the mesh once more than it enters. Wrong at worst where it grazes a triangle that stands
+/// upright but for rounding.
+bool MeshTree::encloses(const Vec3& p) const {
+  bool inside = false;
+  for (std::uint32_t n = 0; n < nodes_.size();) {
+    const Node& node = nodes_[n];
+    const Aabb& box = node.box;
+    if (!(box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y && p.z <= box.upper.z)) {
+      n = node.skip;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Entry& e = entries_[i];
+      const bool ab = passes_left(e.a, e.b, p), bc = passes_left(e.b, e.c, p), ca = passes_left(e.c, e.a, p);
+      if (ab != bc || bc != ca) continue;
+      const double height = dot(e.normal, p - e.a);
+      if (e.normal.z > 0.0 ? height < 0.0 : height > 0.0) inside = !inside;
+    }
+    ++n;
+  }
+  return inside;
 }
 
 bool MeshTree::shares_feature(const MeshHit& hit, const MeshHit& other) const {
@@ -213,6 +259,12 @@ void MeshTree::touch(const Vec3& p, double r, double reach, MeshScratch& scratch
   scratch.touches.clear();
   collect(p, r + reach, scratch.hits);
   if (scratch.hits.empty() && closed_) collect(p, 2.0 * r, scratch.hits);
+  if (scratch.hits.empty() && bounded_ && encloses(p)) {
+    const double most = norm(nodes_[0].box.upper - nodes_[0].box.lower);
+    for (double radius = std::max(4.0 * r, 1e-3 * most); scratch.hits.empty() && radius < 4.0 * most; radius *= 2.0) {
+      collect(p, radius, scratch.hits);
+    }
+  }
   if (!scratch.hits.empty()) report(p, r, reach, scratch);
 }
 

@@ -45,9 +45,10 @@ class MeshTree {
   MeshTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
   /// Where a sphere of radius r [m] about p [m] touches or comes within `reach`
-  /// [m], into scratch.touches. A closed mesh has an inside: a centre that is up
-  /// to 2 r deep is pushed out through the nearest face. An open mesh is touched
-  /// from both sides.
+  /// [m], into scratch.touches. A closed mesh has an inside: a centre there is
+  /// pushed out through the nearest face, however deep it is; of a mesh that is
+  /// inside out, whose inside has no end, up to 2 r. An open mesh is touched from
+  /// both sides.
   void touch(const Vec3& p, double r, double reach, MeshScratch& scratch) const;
 
   /// True when every edge has two triangles of opposite sense.
@@ -69,8 +70,10 @@ class MeshTree {
 
   void weld(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
   void find_closed();
+  void find_bounded();
   void build(std::uint32_t first, std::uint32_t last);
   void collect(const Vec3& p, double radius, std::vector<MeshHit>& hits) const;
+  [[nodiscard]] bool encloses(const Vec3& p) const;
   [[nodiscard]] bool shares_feature(const MeshHit& hit, const MeshHit& other) const;
   [[nodiscard]] bool is_local_minimum(const MeshHit& hit, std::span<const MeshHit> hits) const;
   [[nodiscard]] Vec3 outward(const MeshHit& nearest, std::span<const MeshHit> hits) const;
@@ -79,6 +82,7 @@ class MeshTree {
   std::vector<Entry> entries_;
   std::vector<Node> nodes_;
   bool closed_ = false;
+  bool bounded_ = false;  // closed, and its triangles look outwards
 };
 
 }  // namespace scree::sphere_cluster
