@@ -69,36 +69,45 @@ void ColliderSet::note_new_shapes(const ShapeSet& shapes) {
   }
 }
 
+/// Counts what is not a single sphere.
+void ColliderSet::count_solids(const ShapeSet& shapes, const Shape& shape, const ShapeRecord& record, Place& total) {
+  one_each_ &= record.at_origin;
+  if (record.planes > 0) {
+    std::uint32_t at = total.collider;
+    for (const Primitive& primitive : shapes.primitives(shape)) {
+      if (!primitive.collides) continue;
+      if (primitive.kind == ShapeKind::plane) unbounded_.push_back(at);
+      ++at;
+    }
+  }
+  balls_alone_ &= record.planes == record.colliders;
+  total.collider += record.colliders;
+  total.bounded += record.colliders - std::uint32_t{record.planes};
+  total.solid += record.colliders;
+}
+
 void ColliderSet::count(const ShapeSet& shapes, const BodyView& bodies) {
   note_new_shapes(shapes);
   chunks_.clear();
   unbounded_.clear();
   one_each_ = true;
   all_spheres_movable_ = true;
-  bool spheres = true;
+  balls_alone_ = !use_.boxes;
   Place total;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (i % kBodiesPerChunk == 0) chunks_.push_back(total);
-    if (is_ball_[bodies.shape[i]] != 0) {
-      ++total.collider, ++total.bounded;
-      continue;
+  const std::uint32_t* const shape = bodies.shape.data();
+  const char* const is_ball = is_ball_.data();
+  for (std::size_t first = 0; first < bodies.size(); first += kBodiesPerChunk) {
+    chunks_.push_back(total);
+    const std::size_t last = std::min(first + kBodiesPerChunk, bodies.size());
+    for (std::size_t i = first; i < last; ++i) {
+      // Spheres come in runs.
+      const std::size_t begin = i;
+      while (i < last && is_ball[shape[i]] != 0) ++i;
+      total.collider += static_cast<std::uint32_t>(i - begin);
+      total.bounded += static_cast<std::uint32_t>(i - begin);
+      if (i < last) count_solids(shapes, shapes.shapes()[shape[i]], shapes_[shape[i]], total);
     }
-    const ShapeRecord& record = shapes_[bodies.shape[i]];
-    one_each_ &= record.at_origin;
-    if (record.planes > 0) {
-      std::uint32_t at = total.collider;
-      for (const Primitive& primitive : shapes.primitives(shapes.shapes()[bodies.shape[i]])) {
-        if (!primitive.collides) continue;
-        if (primitive.kind == ShapeKind::plane) unbounded_.push_back(at);
-        ++at;
-      }
-    }
-    spheres &= record.planes == record.colliders;
-    total.collider += record.colliders;
-    total.bounded += record.colliders - std::uint32_t{record.planes};
-    total.solid += record.colliders;
   }
-  balls_alone_ = spheres && !use_.boxes;
   in_place_ = unbounded_.empty() || balls_alone_;
   make_step_room(total);
 }

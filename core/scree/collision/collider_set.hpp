@@ -150,6 +150,7 @@ class ColliderSet {
 
   void note_new_shapes(const ShapeSet& shapes);
   void count(const ShapeSet& shapes, const BodyView& bodies);
+  void count_solids(const ShapeSet& shapes, const Shape& shape, const ShapeRecord& record, Place& total);
   void make_step_room(const Place& total);
   void name_spheres(const BodyView& bodies, std::size_t first, std::size_t last, std::size_t k);
   void place_spheres(const BodyView& bodies, std::size_t first, std::size_t last, std::span<const Vec3> velocity,
