@@ -1,10 +1,19 @@
 #include "contact_study/contact_log.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "contact_study/contact_motion.hpp"
 #include "scree/state/state_io.hpp"
 
 namespace scree {
+
+namespace {
+
+// One that begins with a pull counts as one that begins with a push.
+double weight_of(const Vec3& impulse) { return impulse.x != 0.0 ? std::abs(impulse.x) : norm(impulse); }
+
+}  // namespace
 
 void ContactLog::look(const BodyView& bodies, const ContactView& contacts) {
   before_.swap(loaded_);
@@ -12,11 +21,11 @@ void ContactLog::look(const BodyView& bodies, const ContactView& contacts) {
   share_.assign(contacts.size(), 0.0);
   auto old = before_.begin();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (!(contacts.impulse[k].x > 0.0)) continue;
+    if (!acts(contacts, k)) continue;
     const ContactKey key = contact_key(bodies, contacts.contact[k]);
     loaded_.push_back(key);
     while (old != before_.end() && *old < key) ++old;
-    if (old == before_.end() || *old != key) share_[k] = contacts.impulse[k].x;
+    if (old == before_.end() || *old != key) share_[k] = weight_of(contacts.impulse[k]);
   }
   share_out(contacts);
 }

@@ -11,18 +11,18 @@ namespace scree {
 class StateReader;
 class StateWriter;
 
-/// Remembers which contacts were loaded in the last step.
+/// Remembers which contacts acted (acts() in contact_motion.hpp) in the last step.
 class ContactLog {
  public:
   /// Looks at the contacts of a step, once a step. Contacts are sorted, as steppers give them.
   void look(const BodyView& bodies, const ContactView& contacts);
 
-  /// True when contact k is loaded, and was not in the step before.
+  /// True when contact k acts, and did not in the step before.
   [[nodiscard]] bool is_new(std::size_t k) const { return share_[k] > 0.0; }
-  /// Of an impact of two bodies, what contact k has of it: its part of the normal impulse of all new contacts between the
+  /// Of an impact of two bodies, what contact k has of it: its part of the impulse, along the normal, of all new contacts between the
   /// two; 0 when it is not new. The shares of a pair sum up to one, so that a box that lands on four corners lands once.
   [[nodiscard]] double share(std::size_t k) const { return share_[k]; }
-  /// Number of loaded contacts.
+  /// Number of contacts that act.
   [[nodiscard]] std::size_t loaded() const { return loaded_.size(); }
 
   void save(StateWriter& out) const;

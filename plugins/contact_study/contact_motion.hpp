@@ -44,9 +44,15 @@ inline double effective_mass(const BodyView& bodies, const Contact& c) {
   return inverse > 0.0 ? 1.0 / inverse : 0.0;
 }
 
-/// Kinetic energy that a contact took from its bodies in a step: - J . (u0 + u1) / 2 [J]; rolling resistance is not in it.
+/// Kinetic energy that a contact took from its bodies in a step [J]: what the stepper has summed up, rolling resistance
+/// included, or - J . (u0 + u1) / 2 without it.
 inline double dissipated(const ContactView& contacts, std::size_t k) {
-  return -dot(contacts.impulse[k], mean_velocity(contacts, k));
+  return contacts.work.empty() ? -dot(contacts.impulse[k], mean_velocity(contacts, k)) : contacts.work[k];
+}
+
+/// True when a contact acted in the step: it pushed, or pulled as soft contacts may, which are those whose work is known.
+inline bool acts(const ContactView& contacts, std::size_t k) {
+  return contacts.impulse[k].x > 0.0 || (!contacts.work.empty() && contacts.impulse[k] != Vec3{});
 }
 
 /// The share of Coulomb's limit that the tangential impulse takes, |J_t| / (mu J_n) [1]; 0 without friction or load.

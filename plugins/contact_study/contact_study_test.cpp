@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "contact_study/contact_log.hpp"
 #include "contact_study/contact_motion.hpp"
 #include "contact_study/followed_bodies.hpp"
 #include "contact_study/log_histogram.hpp"
@@ -139,6 +140,31 @@ TEST(series_table, a_resumed_table_has_the_rows_of_one_run) {
   EXPECT_EQ(second.column(0).size(), 3u);
   EXPECT_THROW(second.add(std::vector<double>{1.0}), std::logic_error);
   fs::remove_all(folder);
+}
+
+// Rigid contacts push or do nothing; soft ones, whose work is known, may pull.
+TEST(contact_log, what_begins_with_a_pull_is_new_once_and_shares_with_what_pushes) {
+  test::FakeSceneServices services;
+  test::TestBodies bodies{services.attributes()};
+  for (const BodyId id : {BodyId{0}, BodyId{1}}) bodies.add_sphere(id, {}, 1e-3, 1000.0);
+  const std::vector<Contact> contact{{0, 1, 0, 0, 0, {}, {0, 0, 1}, 0.0}, {0, 1, 0, 0, 1, {}, {0, 0, 1}, 0.0}};
+  const std::vector<Vec3> first{{-1.0, 0, 0}, {3.0, 0, 0}}, second{{2.0, 0, 0}, {-1.0, 0, 0}}, velocity(2);
+  const std::vector<double> work(2);
+  const auto view = [&](const std::vector<Vec3>& impulse, bool soft) {
+    ContactView contacts{contact, impulse, velocity, velocity};
+    if (soft) contacts.work = work;
+    return contacts;
+  };
+  ContactLog soft, rigid;
+  soft.look(bodies.view(), view(first, true));
+  EXPECT_DOUBLE_EQ(soft.share(0), 0.25);
+  EXPECT_DOUBLE_EQ(soft.share(1), 0.75);
+  soft.look(bodies.view(), view(second, true));
+  EXPECT_FALSE(soft.is_new(0) || soft.is_new(1));
+  EXPECT_EQ(soft.loaded(), 2u);
+  rigid.look(bodies.view(), view(first, false));
+  EXPECT_FALSE(rigid.is_new(0));
+  EXPECT_DOUBLE_EQ(rigid.share(1), 1.0);
 }
 
 TEST(series_table, intervals_are_whole_steps) {

@@ -80,6 +80,7 @@ DEM = """
 type = "dem"
 [contact_law]
 type = "linear_spring_dashpot"
+rolling = "elastic_plastic"
 overlap_target = 0.01
 overlap_speed = "5 m/s"
 """
@@ -95,7 +96,8 @@ class Studies:
     """What holds with every stepper; hard contacts are nearer to the closed forms."""
 
     stepper = DVI
-    work_tolerance = 1e-10  # some thousand roundings
+    rolling = ""
+    work_tolerance = loss_tolerance = 1e-10  # some thousand roundings
 
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -175,8 +177,7 @@ class Studies:
         lost = sum(float(row["sum"]) for row in rows if row["energy"] == "dissipated")
         self.near(lost, energy, 0.01 * energy)
 
-    # What a turning drum gives to grains: summed here contact by contact, and by the stepper in its account of energies.
-    def test_work_of_a_drum_is_that_of_the_energy_account(self):
+    def turning_drum(self):
         drum = """
 [shape.drum]
 type = "cylinder"
@@ -196,16 +197,30 @@ angular_velocity = ["0 rad/s", "60 rpm", "0 rad/s"]
         grains = "".join(body(f"b{i}", "ball", (-0.03 + 0.03 * (i % 3), -0.02 + 0.03 * (i // 3 % 2), 0.47 + 0.022 * (i // 6)))
                          for i in range(18))
         scene = self.write("drum.toml", drum + grains, 0.5)
-        scene.write_text(scene.read_text().replace('type = "body_load"\nbodies = ["plate"]',
-                                                   'type = "body_load"\nbodies = ["drum"]').replace("1e-8", "1e-6"))
+        text = scene.read_text().replace('type = "body_load"\nbodies = ["plate"]', 'type = "body_load"\nbodies = ["drum"]')
+        text = text.replace('type = "collision_energy"', 'type = "collision_energy"\nmin_speed = 0').replace("1e-8", "1e-6")
+        scene.write_text(text.replace('restitution = 0.0', f"restitution = 0.0\n{self.rolling}"))
         self.run_scene(scene, "drum")
-        loads, steps = self.table("drum", "body_load.csv"), self.table("drum", "steps.csv")
-        work = float(steps[-1]["boundary_work"])
+        return self.table("drum", "steps.csv")[-1]
+
+    # What a turning drum gives to grains: summed here contact by contact, and by the stepper in its account of energies.
+    def test_work_of_a_drum_is_that_of_the_energy_account(self):
+        work = float(self.turning_drum()["boundary_work"])
         self.assertGreater(work, 0.0)
+        loads = self.table("drum", "body_load.csv")
         self.near(loads[-1]["work"], -work, self.work_tolerance * work)
         for row in loads:  # about its axis of rotation, y
             self.near(row["power"], float(row["axial_torque"]) * 2 * math.pi, 1e-12)
             self.near(row["axial_torque"], float(row["torque_y"]), 1e-15)
+
+    # Every collision, the slowest and those that last included.
+    def test_what_collisions_dissipate_is_the_loss_of_the_energy_account(self):
+        loss = float(self.turning_drum()["contact_loss"])
+        self.assertGreater(loss, 0.0)
+        self.near(self.dissipated("drum"), loss, self.loss_tolerance * loss)
+
+    def dissipated(self, results):
+        return 0.01 * sum(float(row["dissipated_rate"]) for row in self.table(results, "collision_energy_series.csv"))
 
     # Everything at once, in the middle of bounces and sliding: 0.1 s and 0.1 s more are 0.2 s.
     def test_a_resumed_run_has_the_tables_of_one_run(self):
@@ -234,7 +249,25 @@ class HardContacts(Studies, unittest.TestCase):
 
 class SoftContacts(Studies, unittest.TestCase):
     stepper = DEM
-    work_tolerance = 0.02  # impulses of a whole step stand at its end, where the drum is 6 mrad farther
+    rolling = 'rolling_friction = "0.2 mm"'
+    loss_tolerance = 1e-3
+
+    # A ball falls into a neck, is pressed and pulled back: one collision from 0.1 m/s on, which takes what the neck keeps.
+    def test_a_collision_lasts_while_a_neck_pulls(self):
+        scene = self.write("neck.toml", body("ball", "ball", (0, 0, 0.0102), (0, 0, -0.1)), 0.02, 0.02, 1.0)
+        text = scene.read_text().replace('type = "collision_energy"', 'type = "collision_energy"\nmin_speed = 0')
+        law = text[text.index("[contact_law]"):text.index("[broad_phase]")]
+        text = text.replace(law, '[contact_law]\ntype = "hertz_mindlin"\ncohesion = "jkr"\n')
+        stone = 'density = "2500 kg/m3"\nyoung_modulus = "10 MPa"\nsurface_energy = "2 J/m2"'
+        scene.write_text(text.replace('density = "2500 kg/m3"', stone).replace('[[force_field]]\ntype = "gravity"\n', ""))
+        self.run_scene(scene, "neck")
+        series = self.table("neck", "collision_energy_series.csv")
+        self.assertEqual(sum(float(row["collisions"]) for row in series), 1)
+        energy = 0.5 * BALL * 0.1**2
+        loss = float(self.table("neck", "steps.csv")[-1]["contact_loss"])
+        self.assertGreater(loss, 0.01 * energy)
+        self.near(self.dissipated("neck"), loss, self.loss_tolerance * loss)
+        self.near(0.01 * sum(float(row["normal_energy_rate"]) for row in series), energy, 1e-9 * energy)
 
 
 if __name__ == "__main__":

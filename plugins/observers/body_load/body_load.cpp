@@ -103,10 +103,32 @@ void BodyLoad::find_motions(const Observation& now) {
   }
 }
 
+// In many short steps a body turns: what the stepper has summed up is then nearer than impulses at the last pose.
+void BodyLoad::add_summed(const Observation& now) {
+  summed_.assign(followed_.size(), 0);
+  for (const ContactLoad& load : now.contacts.loads) {
+    const std::uint32_t slot = followed_.slot(load.body);
+    if (slot == FollowedBodies::kNone) continue;
+    summed_[slot] = 1;
+    const BodyMotion& motion = motions_[slot];
+    const bool moves = now.bodies.motion[load.body] != Motion::fixed;
+    const double back = moves ? 0.5 * now.dt : 0.0;
+    // The body's own centre stays the reference where no other is asked for.
+    const Vec3 centre =
+        options_.has("point") ? now.bodies.position[load.body] - back * motion.velocity.linear : motion.reference;
+    followed_state_[slot].interval.add(load_of(motion, centre, load));
+  }
+}
+
 void BodyLoad::observe(const Observation& now, Attributes&) {
   find_motions(now);
+  add_summed(now);
   followed_.visit(now.contacts, [&](const BodyContact& c) {
     if (now.contacts.impulse[c.contact] == Vec3{}) return;
+    if (summed_[c.slot] != 0) {
+      followed_state_[c.slot].interval.contacts += 1.0;
+      return;
+    }
     WorldImpulse impulse = impulse_on_b(now.contacts, c.contact);
     impulse.linear *= c.sign;
     impulse.angular *= c.sign;

@@ -42,6 +42,7 @@ class BodyLoad final : public Observer {
 
   void find_motions(const Observation& now);
   [[nodiscard]] Twist velocity_before(const Observation& now, BodyIndex body) const;
+  void add_summed(const Observation& now);
   void end_interval(double time);
   void write_figures() const;
 
@@ -53,6 +54,7 @@ class BodyLoad final : public Observer {
   FollowedBodies followed_;
   std::vector<Followed> followed_state_;  // by slot
   std::vector<BodyMotion> motions_;       // of the step, by slot
+  std::vector<char> summed_;              // of the step, by slot: the stepper says what contacts did
   SeriesTable table_;
 };
 

@@ -165,6 +165,32 @@ TEST_F(BodyLoadTest, levers_are_those_of_the_moment_of_contact) {
   EXPECT_NEAR(load.total(0).angular_impulse.y, 0.0, 1e-17);
 }
 
+// The stepper says what contacts did to the plate while it turned and moved on; the ball has nothing but its contact.
+TEST_F(BodyLoadTest, what_a_stepper_has_summed_up_is_the_load) {
+  for (const bool stated : {false, true}) {
+    BodyLoad load = make(std::string{"bodies = ['plate', 'ball']\ninterval = 0.0\naxis = [0, 0, 2]"} +
+                         (stated ? "\npoint = [1.0, 0.0, 0.0]" : ""));
+    load.setup(services, {});
+    bodies.motion[0] = Motion::kinematic;
+    bodies.velocity[0] = {4.0, 0, 0};
+    bodies.position[0] = {2e-3, 0, 0};
+    touch({0.3, 0, 0}, {0, 0, 1}, {0, 0.2, 1.0});
+    const std::vector<ContactLoad> summed{{0, {0, -0.19, -0.9}, {0.01, 0.02, -0.06}, -0.05}};
+    Observation now = at(1);
+    now.contacts.loads = summed;
+    load.observe(now, services.attributes());
+    const LoadSum& plate = load.total(0);
+    EXPECT_EQ(plate.impulse, (Vec3{0, -0.19, -0.9}));
+    EXPECT_EQ(plate.work, -0.05);
+    EXPECT_EQ(plate.contacts, 1.0);
+    // Half a step before its end the plate's centre was at the origin: (0 - 1) x (-0.19) more about the point.
+    EXPECT_NEAR(plate.axial_impulse, -0.06 + (stated ? 0.19 : 0.0), 1e-16);
+    EXPECT_NEAR(plate.angular_impulse.y, 0.02 + (stated ? -0.9 : 0.0), 1e-15);
+    EXPECT_EQ(load.total(1).impulse, (Vec3{0, 0.2, 1.0}));
+    clear();
+  }
+}
+
 TEST_F(BodyLoadTest, a_resumed_run_writes_the_table_of_one_run) {
   const char* options = "bodies = ['plate', 'ball']\ninterval = 0.004";
   BodyLoad whole = make(options), first = make(options), second = make(options);

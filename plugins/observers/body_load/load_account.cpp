@@ -46,4 +46,13 @@ LoadSum load_of(const BodyMotion& body, const Vec3& point, const WorldImpulse& i
   return load;
 }
 
+LoadSum load_of(const BodyMotion& body, const Vec3& centre, const ContactLoad& summed) {
+  LoadSum load;
+  load.impulse = summed.impulse;
+  load.angular_impulse = summed.angular_impulse + cross(centre - body.reference, summed.impulse);
+  load.axial_impulse = dot(body.axis, load.angular_impulse);
+  load.work = summed.work;
+  return load;
+}
+
 }  // namespace scree

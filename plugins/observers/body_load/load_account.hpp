@@ -40,4 +40,8 @@ struct LoadSum {
 ///     work             J . (v + w x (p - x) + surface) + L . (w + surface's turning)
 [[nodiscard]] LoadSum load_of(const BodyMotion& body, const Vec3& point, const WorldImpulse& impulse);
 
+/// What contacts did to a body in a step, as the stepper summed it up; the number of contacts is not in it. `centre`: where
+/// the body's centre was in the middle of the step [m].
+[[nodiscard]] LoadSum load_of(const BodyMotion& body, const Vec3& centre, const ContactLoad& summed);
+
 }  // namespace scree

@@ -48,10 +48,11 @@ class CollisionEnergyTest : public ::testing::Test {
     befores.push_back(before);
     afters.push_back(after);
   }
-  void look(CollisionEnergy& part, std::uint64_t step) {
-    part.observe(
-        {bodies.view(), {contact, impulses, befores, afters}, {}, 1e-3 * static_cast<double>(step), 1e-3, step},
-        services.attributes());
+  /// `works`: what a stepper says that contacts took [J].
+  void look(CollisionEnergy& part, std::uint64_t step, const std::vector<double>& works = {}) {
+    ContactView seen{contact, impulses, befores, afters};
+    seen.work = works;
+    part.observe({bodies.view(), seen, {}, 1e-3 * static_cast<double>(step), 1e-3, step}, services.attributes());
     contact.clear();
     impulses.clear();
     befores.clear();
@@ -137,6 +138,33 @@ TEST_F(CollisionEnergyTest, a_collision_lasts_from_the_first_to_the_last_loaded_
   EXPECT_NEAR(pair.normal.total_weight(), 0.5 * m, 1e-15);
   EXPECT_NEAR(pair.dissipated.total_weight(), m * 0.5 * (1.0 - 0.49), 1e-15);
   EXPECT_EQ(pair_of(*part, "floor - steel").normal.total_count(), 0u);
+}
+
+// A stepper of many short steps knows what a contact took; velocities at the ends of a whole step do not tell.
+TEST_F(CollisionEnergyTest, what_a_stepper_has_summed_up_is_what_is_dissipated) {
+  const auto part = make("min_speed = 0.0");
+  const double m = bodies.mass[1];
+  touch(0, 1, {1.5 * m, 0, 0}, {-1, 0, 0}, {0.5, 0, 0});
+  look(*part, 1, {0.375 * m});
+  look(*part, 2);
+  EXPECT_DOUBLE_EQ(pair_of(*part, "floor - glass").dissipated.total_weight(), 0.375 * m);
+}
+
+// A neck that pulls a ball in, presses it and holds it back is one collision, from the pull on: at 0.1 m/s.
+TEST_F(CollisionEnergyTest, steps_in_which_a_contact_pulls_are_of_its_collision) {
+  const auto part = make("min_speed = 0.05");
+  const double m = bodies.mass[1], v = 0.1;
+  touch(0, 1, {-0.1 * m * v, 0, 0}, {-v, 0, 0}, {-1.1 * v, 0, 0});
+  look(*part, 1, {-1e-6});
+  touch(0, 1, {2.2 * m * v, 0, 0}, {-1.1 * v, 0, 0}, {1.1 * v, 0, 0});
+  look(*part, 2, {2e-7});
+  touch(0, 1, {-0.3 * m * v, 0, 0}, {1.1 * v, 0, 0}, {0.8 * v, 0, 0});
+  look(*part, 3, {4e-6});
+  look(*part, 4);
+  const PairSpectra& pair = pair_of(*part, "floor - glass");
+  EXPECT_EQ(pair.normal.total_count(), 1u);
+  EXPECT_NEAR(pair.normal.total_weight(), 0.5 * m * v * v, 1e-15 * m);
+  EXPECT_NEAR(pair.dissipated.total_weight(), 3.2e-6, 1e-18);
 }
 
 TEST_F(CollisionEnergyTest, points_of_one_impact_share_its_energy) {

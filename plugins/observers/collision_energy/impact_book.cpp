@@ -9,7 +9,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::size_t kNumbers = 6;  // of a Collision, besides its materials
+constexpr std::size_t kNumbers = 5;  // of a Collision, besides its materials
 
 Collision begin_collision(const BodyView& bodies, const ContactView& contacts, std::size_t k, double share) {
   const Contact& contact = contacts.contact[k];
@@ -24,13 +24,6 @@ Collision begin_collision(const BodyView& bodies, const ContactView& contacts, s
   return c;
 }
 
-void add_step(const ContactView& contacts, std::size_t k, Collision& c) {
-  const Vec3 mean = mean_velocity(contacts, k), &impulse = contacts.impulse[k];
-  const double tangential = -(impulse.y * mean.y + impulse.z * mean.z);
-  c.dissipated += tangential - impulse.x * mean.x;
-  c.dissipated_tangential += tangential;
-}
-
 }  // namespace
 
 // One walk through the open contacts and those of the step, both sorted by key.
@@ -40,13 +33,13 @@ void ImpactBook::look(const BodyView& bodies, const ContactView& contacts, std::
   next_open_.clear();
   std::size_t old = 0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    if (!(contacts.impulse[k].x > 0.0)) continue;
+    if (!acts(contacts, k)) continue;
     const ContactKey key = contact_key(bodies, contacts.contact[k]);
     for (; old < keys_.size() && keys_[old] < key; ++old) ended.push_back(open_[old]);
     const bool goes_on = old < keys_.size() && keys_[old] == key;
     next_keys_.push_back(key);
     next_open_.push_back(goes_on ? open_[old++] : begin_collision(bodies, contacts, k, log_.share(k)));
-    add_step(contacts, k, next_open_.back());
+    next_open_.back().dissipated += dissipated(contacts, k);
   }
   for (; old < keys_.size(); ++old) ended.push_back(open_[old]);
   keys_.swap(next_keys_);
@@ -61,8 +54,7 @@ void ImpactBook::save(StateWriter& out) const {
     const ContactKey& key = keys_[k];
     const Collision& c = open_[k];
     keys.insert(keys.end(), {key.a, key.b, key.primitive_a, key.primitive_b, key.feature, c.material_a, c.material_b});
-    numbers.insert(numbers.end(),
-                   {c.normal_energy, c.tangential_energy, c.dissipated, c.dissipated_tangential, c.mass, c.speed});
+    numbers.insert(numbers.end(), {c.normal_energy, c.tangential_energy, c.dissipated, c.mass, c.speed});
   }
   out.write("keys", std::span<const std::uint64_t>{keys});
   out.write("numbers", std::span<const double>{numbers});
@@ -79,7 +71,7 @@ void ImpactBook::load(const StateReader& in) {
     const double* n = &numbers.at(kNumbers * (k + 1) - 1) - (kNumbers - 1);
     keys_.push_back({key[0], key[1], static_cast<std::uint32_t>(key[2]), static_cast<std::uint32_t>(key[3]), key[4]});
     open_.push_back(
-        {static_cast<std::uint32_t>(key[5]), static_cast<std::uint32_t>(key[6]), n[0], n[1], n[2], n[3], n[4], n[5]});
+        {static_cast<std::uint32_t>(key[5]), static_cast<std::uint32_t>(key[6]), n[0], n[1], n[2], n[3], n[4]});
   }
 }
 

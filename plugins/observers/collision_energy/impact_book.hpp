@@ -1,4 +1,4 @@
-// ImpactBook: follows every contact from its first loaded step to its last, and closes it as one collision.
+// ImpactBook: follows every contact from the first step in which it acts to the last, and closes it as one collision.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,7 @@ struct Collision {
   std::uint32_t material_a = 0, material_b = 0;  ///< indices; a <= b
   double normal_energy = 0.0;                    ///< 1/2 m_eff v_n^2 at the beginning [J]
   double tangential_energy = 0.0;                ///< 1/2 m_eff v_t^2 at the beginning [J]
-  double dissipated = 0.0;                       ///< - sum J . (u0 + u1) / 2 over its steps [J]
-  double dissipated_tangential = 0.0;            ///< the tangential part of it [J]
+  double dissipated = 0.0;                       ///< taken from its bodies, over its steps [J]
   double mass = 0.0;                             ///< m_eff, times the contact's share of its impact [kg]
   double speed = 0.0;                            ///< v_n at the beginning [m/s]
 };

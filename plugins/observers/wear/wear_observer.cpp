@@ -46,6 +46,12 @@ std::vector<Parameter> WearObserver::parameters() {
           "extent, while meshes and hulls keep their faces")
           .above(0.0)
           .optional(),
+      Parameter::number(
+          "density", "kg/m3",
+          "of what is worn off; when left out that of each body's material, which is 1000 kg/m3 where the "
+          "scene states none")
+          .above(0.0)
+          .optional(),
       Parameter::integer("segments", "of a full circle of round shapes").at_least(8).at_most(512).by_default(64),
       Parameter::number("plane_size", "m",
                         "edge of the square that stands for an unbounded plane; wear beyond it counts "
@@ -123,7 +129,7 @@ void WearObserver::observe(const Observation& now, Attributes&) {
   remember_poses(now.bodies);
   log_.look(now.bodies, now.contacts);
   followed_.visit(now.contacts, [&](const BodyContact& c) {
-    if (now.contacts.impulse[c.contact].x > 0.0) wear_by(now, c);
+    if (acts(now.contacts, c.contact)) wear_by(now, c);
   });
   if (now.step % row_every_ == 0) add_rows(now.time);
   if (field_every_ > 0 && now.step % field_every_ == 0) write_field(now.time, now.step);
@@ -141,7 +147,7 @@ void WearObserver::wear_by(const Observation& now, const BodyContact& c) {
   const WearPair& law = laws_.pair(worn, by);
   const Vec3 mean = mean_velocity(contacts, c.contact);
   WearAmount amount;
-  amount.sliding_volume = archard_volume(law, impulse.x * tangential(mean));
+  amount.sliding_volume = archard_volume(law, std::max(0.0, impulse.x) * tangential(mean));
   amount.sliding_energy = -(impulse.y * mean.y + impulse.z * mean.z);
   double impacts = 0.0;
   if (impact) {
@@ -153,6 +159,10 @@ void WearObserver::wear_by(const Observation& now, const BodyContact& c) {
   const Pose pose = pose_at_contacts(now.bodies, c.self, contacts.age);
   const std::size_t face = maps_[c.slot]->nearest(c.primitive, transform_back(pose, contact.point));
   accounts_[c.slot].add(face, amount, impacts);
+}
+
+double WearObserver::density(std::size_t slot) const {
+  return options_.has("density") ? options_.number("density") : (*materials_)[body_materials_[slot]].density;
 }
 
 double WearObserver::deepest(std::size_t slot) const {
@@ -168,9 +178,8 @@ void WearObserver::add_rows(double time) {
   for (std::size_t k = 0; k < followed_.size(); ++k) {
     const WearAmount& all = accounts_[k].total();
     const double rate = time > row_time_ ? (all.volume() - row_volume_[k]) / (time - row_time_) : 0.0;
-    const double density = (*materials_)[body_materials_[k]].density;
     table_.add(std::array{time, static_cast<double>(k), all.sliding_volume, all.impact_volume, all.volume(), rate,
-                          density * all.volume(), deepest(k), all.sliding_energy, all.impact_energy,
+                          density(k) * all.volume(), deepest(k), all.sliding_energy, all.impact_energy,
                           accounts_[k].impacts()});
     row_volume_[k] = all.volume();
   }

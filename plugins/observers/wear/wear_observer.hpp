@@ -42,6 +42,7 @@ class WearObserver final : public Observer {
   void write_field(double time, std::uint64_t step);
   void write_figure() const;
   [[nodiscard]] double deepest(std::size_t slot) const;
+  [[nodiscard]] double density(std::size_t slot) const;  // of what is worn off [kg/m3]
 
   Options options_;
   FaceOptions face_options_;

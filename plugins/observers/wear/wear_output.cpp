@@ -123,13 +123,15 @@ void WearObserver::write_figure() const {
 std::vector<ReportTable> WearObserver::report() const {
   ReportTable table;
   table.title = stem_ + ": wear";
-  table.header = {"body",    "sliding [m3]", "impacts [m3]", "deepest [m]", "sliding energy [J]", "impact energy [J]",
-                  "impacts", "faces",        "worn faces"};
+  table.header = {"body",        "sliding [m3]",       "impacts [m3]",      "mass [kg]", "density [kg/m3]",
+                  "deepest [m]", "sliding energy [J]", "impact energy [J]", "impacts",   "faces",
+                  "worn faces"};
   for (std::size_t k = 0; k < followed_.size(); ++k) {
     const WearAmount& all = accounts_[k].total();
     const std::vector<WearAmount>& faces = accounts_[k].faces();
     const auto worn = std::count_if(faces.begin(), faces.end(), [](const WearAmount& f) { return f.volume() > 0.0; });
-    table.rows.push_back({followed_.name(k), number(all.sliding_volume), number(all.impact_volume), number(deepest(k)),
+    table.rows.push_back({followed_.name(k), number(all.sliding_volume), number(all.impact_volume),
+                          number(density(k) * all.volume()), number(density(k)), number(deepest(k)),
                           number(all.sliding_energy), number(all.impact_energy), number(accounts_[k].impacts()),
                           std::to_string(faces.size()), std::to_string(worn)});
   }

@@ -125,6 +125,22 @@ TEST_F(WearTest, what_friction_holds_wears_nothing) {
   EXPECT_EQ(wear->account(0).total().volume(), 0.0);
 }
 
+// Steel by its material, or what the scene states: mass is density times volume, and the table at the end tells both.
+TEST_F(WearTest, mass_has_the_density_of_the_material_or_of_the_setting) {
+  for (const auto& [setting, density] : {std::pair{"", 7800.0}, std::pair{"\ndensity = 1500.0", 1500.0}}) {
+    const auto wear = make(std::string{kPlate} + "interval = 0.001" + setting, folder);
+    touch({0, 0, 0}, {-kFriction, 0, 1.0}, {1, 0, 0}, {1, 0, 0});
+    look(*wear, 1);
+    clear();
+    const ReportTable table = wear->report().front();
+    EXPECT_EQ(table.header[4], "density [kg/m3]");
+    EXPECT_EQ(std::stod(table.rows[0][4]), density);
+    const double volume = wear->account(0).total().volume();
+    EXPECT_GT(volume, 0.0);
+    EXPECT_NEAR(std::stod(table.rows[0][3]), density * volume, 1e-5 * density * volume);  // six digits
+  }
+}
+
 TEST_F(WearTest, a_face_size_that_makes_too_many_faces_is_refused_with_one_that_does_not) {
   try {
     (void)make(std::string{kPlate} + "largest_face = 1e-5");
