@@ -25,6 +25,13 @@ struct CompareOptions {
   int threads = 1;
   bool overwrite = false;
   bool quiet = false;
+
+  /// The overrides, and no observers: they see nothing of a comparison, and their files would only cost time.
+  [[nodiscard]] std::vector<std::string> overrides_without_observers() const {
+    std::vector<std::string> out = overrides;
+    out.emplace_back("observer=[]");
+    return out;
+  }
 };
 
 /// Runs the scene to the times asked for, and gives the contact problems of these steps to every solver, cold and warm.

@@ -151,9 +151,7 @@ std::vector<PhaseTrial> try_all(const CompareOptions& options, const PluginHost&
 }  // namespace
 
 int compare_phases(const CompareOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  overrides.emplace_back("observer=[]");
-  const SceneDocument document = SceneDocument::load(options.scene, overrides);
+  const SceneDocument document = SceneDocument::load(options.scene, options.overrides_without_observers());
   const PluginHost host = find_scene_plugins(document, options.plugin_dirs);
   Simulation simulation{document, host, {options.threads, {}, {}}};
   const std::vector<double> times = options.times.empty() ? std::vector{simulation.end_time()} : options.times;

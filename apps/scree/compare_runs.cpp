@@ -66,8 +66,7 @@ std::vector<std::string> override_of(const CompareOptions& options, const SceneD
 }
 
 SceneDocument scene_with(const CompareOptions& options, const std::string& value) {
-  std::vector<std::string> overrides = options.overrides;
-  overrides.emplace_back("observer=[]");
+  std::vector<std::string> overrides = options.overrides_without_observers();
   const SceneDocument plain = SceneDocument::load(options.scene, overrides);
   for (const std::string& change : override_of(options, plain, value)) overrides.push_back(change);
   return SceneDocument::load(options.scene, overrides);

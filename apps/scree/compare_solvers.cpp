@@ -134,10 +134,7 @@ class ComparisonLog {
 }  // namespace
 
 int compare_solvers(const CompareOptions& options) {
-  // The observers see nothing of this; their files would only cost time.
-  std::vector<std::string> overrides = options.overrides;
-  overrides.emplace_back("observer=[]");
-  const SceneDocument scene = SceneDocument::load(options.scene, overrides);
+  const SceneDocument scene = SceneDocument::load(options.scene, options.overrides_without_observers());
   const PluginHost host = find_scene_plugins(scene, options.plugin_dirs);
   const std::vector<Part<CcpSolver>> solvers = make_solvers(options, host);
   (void)trial_settings({}, options.tolerance, options.max_iterations);  // wrong use first
