@@ -4,7 +4,7 @@ import math
 
 COLOURS = ("#1b6ca8", "#d1495b", "#2e8b57", "#e08e0b", "#6a4c93", "#00a5a8", "#8d6a3f", "#c43b8e", "#555555", "#7cb518")
 LEFT, RIGHT, TOP, BOTTOM = 60, 560, 40, 400  # of the axes; the legend stands to the right
-WIDTH, HEIGHT = 800, 455
+WIDTH, HEIGHT = 840, 455
 
 
 def _x(value, greatest):
