@@ -120,6 +120,16 @@ Options::Entry read_table_list(const SceneNode& node, const Parameter& parameter
 
 Options::Entry read_entry(const SceneNode& node, const Parameter& parameter, const std::string& what);
 
+/// Columns have their names in checkpoints, where a slash would divide them.
+void refuse_column_name(const std::string& key, const SceneNode& value, const std::string& subject) {
+  const bool fine = !key.empty() && key != "." &&
+                    std::ranges::none_of(key, [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' '; });
+  if (fine) return;
+  throw Error{ErrorKind::usage, value.where(),
+              subject + " has the name '" + key +
+                  "' in it; a name has at least one sign, and neither slashes nor control characters"};
+}
+
 // Free keys: each a variant, or a number where the description has no variants or the scene writes a plain one.
 Options read_columns(const SceneNode& node, const Parameter& parameter, const std::string& subject) {
   if (node.kind != SceneKind::table) refuse_kind(node, parameter, subject);
@@ -129,6 +139,7 @@ Options read_columns(const SceneNode& node, const Parameter& parameter, const st
   result.set_location(node.where());
   for (const std::string& key : keys) {
     const SceneNode& value = *node.find(key)->value;
+    refuse_column_name(key, value, subject);
     Parameter column = parameter;
     column.name = key;
     const bool plain = value.kind != SceneKind::table && parameter.shorthand_type.empty() &&

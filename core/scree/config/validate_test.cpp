@@ -27,6 +27,22 @@ std::vector<Parameter> field_parameters() {
           Parameter::columns("attributes", sizes, "1", "of bodies").with_shorthand("constant", "value").optional()};
 }
 
+// Names of columns are names in checkpoints.
+TEST(validate, a_column_name_with_a_slash_is_refused_where_it_stands) {
+  const auto refusal = [](const std::string& name) -> std::string {
+    try {
+      (void)options_from_text("radius = 0.1\nattributes = { " + name + " = 1.0 }", field_parameters());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal("'charge of the grain'"), "");
+  EXPECT_NE(refusal("'a/b'").find("has the name 'a/b' in it"), std::string::npos) << refusal("'a/b'");
+  EXPECT_NE(refusal("'a/b'").find(":2:"), std::string::npos) << refusal("'a/b'");
+  EXPECT_NE(refusal("''").find("at least one sign"), std::string::npos);
+}
+
 TEST(validate, silence_gives_the_defaults) {
   const Options options = options_from_text("radius = 0.1", field_parameters());
   EXPECT_EQ(options.number("radius"), 0.1);
