@@ -177,14 +177,16 @@ void BallContacts::keep(const Evaluation& e, BallWork& w) {
   for (std::size_t k = 0; k < batch.count; ++k) {
     const std::size_t pair = w.hit[k];
     std::uint8_t& flags = all_flags[pair];
-    const bool held = w.overlap[k] >= 0.0 || batch.force[k] != Vec3{};  // or only within reach of the law
+    // A contact of a law with a reach may be within it only.
+    const bool held = e.reach == 0.0 || w.overlap[k] >= 0.0 || batch.force[k] != Vec3{};
     if (held && (flags & kTouched) == 0) before[pair] = batch.velocity[k];
     flags = static_cast<std::uint8_t>(kTouching | (held ? kTouched : flags & kTouched) |
                                       (w.leaving[k] != 0.0 ? kLeaving : 0));
   }
-  double greatest = w.tally.greatest_overlap;
-  for (std::size_t k = 0; k < batch.count; ++k) greatest = std::max(greatest, w.overlap[k]);
-  w.tally.greatest_overlap = greatest;
+  for (std::size_t first = 0; first < batch.count; first += 4) {
+    const Lanes overlap = lanes_at(w.overlap, first);
+    w.greatest = overlap > w.greatest ? overlap : w.greatest;
+  }
   for (std::size_t k = 0; e.stage == Stage::last && k < batch.count; ++k) {
     if (w.overlap[k] > 0.0) w.tally.add(w.overlap[k], std::min(w.radius_a[k], w.radius_b[k]));
   }

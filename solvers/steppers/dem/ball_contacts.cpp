@@ -104,6 +104,7 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
     scatter_flats(slots, e, w);
     keep(e, w);
   }
+  for (std::size_t k = 0; k < 4; ++k) w.tally.greatest_overlap = std::max(w.tally.greatest_overlap, w.greatest[k]);
   return w.tally;
 }
 

@@ -6,13 +6,14 @@
 #include <cstring>
 
 #include "contact_tally.hpp"
+#include "four.hpp"
 #include "scree/interfaces/contact_law.hpp"
 #include "scree/math/lanes.hpp"
 
 namespace scree::dem {
 
 /// Pairs that are looked at together: those that touch make a batch. More would push each other out of the nearest cache.
-inline constexpr std::size_t kPairsAtOnce = 48;
+inline constexpr std::size_t kPairsAtOnce = 64;
 static_assert(kPairsAtOnce <= ContactBatch::kMost && kPairsAtOnce % 4 == 0);
 
 struct BallWork {
@@ -33,19 +34,9 @@ struct BallWork {
   ContactBatch::Lanes3 rim;    ///< sum of arm times angular velocity [m/s]
   ContactBatch::Lanes3 lever;  ///< normal x force [N]
   ContactTally tally;
+  Lanes greatest{};  ///< overlap, by lane [m]
 };
 
-/// Four doubles of a record, from its `quadruple`-th one on.
-template <class Record>
-Lanes four_of(const Record& record, std::size_t quadruple = 0) {
-  Lanes out;
-  std::memcpy(&out, reinterpret_cast<const char*>(&record) + quadruple * sizeof out, sizeof out);
-  return out;
-}
-template <class Record>
-void set_four(const Lanes& values, Record& record, std::size_t quadruple = 0) {
-  std::memcpy(reinterpret_cast<char*>(&record) + quadruple * sizeof values, &values, sizeof values);
-}
 inline Lanes lanes_at(const ContactBatch::Lane& lane, std::size_t k) {
   Lanes out;
   std::memcpy(&out, lane.data() + k, sizeof out);
@@ -72,6 +63,5 @@ inline void fill_lanes(BallWork& w) {
   const std::size_t count = w.batch.count;
   for (std::size_t k = count; k % 4 != 0; ++k) w.hit[k] = w.hit[count - 1], w.apart[k] = w.apart[count - 1];
 }
-inline Lanes splat(double value) { return Lanes{value, value, value, value}; }
 
 }  // namespace scree::dem

@@ -1,4 +1,5 @@
 #include "dem.hpp"
+#include "four.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -243,7 +244,7 @@ void Dem::ask_fields(const Call& call, double time) {
   const bool turns = std::ranges::any_of(field_torque_, [](const Vec3& torque) { return torque != Vec3{}; });
   slots_.field_torque.resize(turns ? n : 0);
   call.services.executor().for_chunks(n, kGrain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) slots_.field_force[k] = field_force_[slots_.body[k]];
+    for (std::size_t k = first; k < last; ++k) slots_.field_force[k] = dem::four_of(field_force_[slots_.body[k]], 0.0);
     for (std::size_t k = first; turns && k < last; ++k) slots_.field_torque[k] = field_torque_[slots_.body[k]];
   });
 }

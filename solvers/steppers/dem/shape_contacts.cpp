@@ -78,19 +78,19 @@ void ShapeContacts::match(const BodyView& bodies, std::span<const Contact> found
   merged_.clear();
   active_.clear();
   std::size_t old = 0, group = 0;
-  const auto take = [&](Entry&& entry) {
+  const auto take = [&](const Entry& entry) {
     if (!merged_.empty() && pair_of(merged_.back().key) != pair_of(entry.key)) {
       inherit(group, merged_.size());
       group = merged_.size();
     }
-    merged_.push_back(std::move(entry));
+    merged_.push_back(entry);
   };
   const auto end_old = [&] {
     // What touched until now keeps its history until inherit() has looked at it.
     Entry entry = entries_[old++];
     entry.is_new = entry.touching;  // just ended
     entry.touching = false;
-    take(std::move(entry));
+    take(entry);
   };
   for (const Contact& c : found) {
     const ContactKey key = contact_key(bodies, c);
@@ -100,13 +100,13 @@ void ShapeContacts::match(const BodyView& bodies, std::span<const Contact> found
       entry.is_new = !entry.touching;
       entry.touching = true;
       entry.contact = c;
-      take(std::move(entry));
+      take(entry);
     } else {
       Entry entry;
       entry.key = key;
       entry.contact = c;
       entry.touching = true;
-      take(std::move(entry));
+      take(entry);
     }
   }
   while (old < entries_.size()) end_old();

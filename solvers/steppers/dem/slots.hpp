@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scree/collision/contact.hpp"
+#include "scree/math/lanes.hpp"
 #include "scree/math/twist.hpp"
 #include "scree/model/body.hpp"
 
@@ -52,6 +53,14 @@ struct alignas(64) Wrench {
   }
 };
 
+/// Accelerations [m/s2], [rad/s2], world.
+struct alignas(64) Accelerations {
+  Vec3 linear;
+  double unused_linear = 0.0;
+  Vec3 angular;
+  double unused_angular = 0.0;
+};
+
 /// A plane that stands still: what is below n x = offset is solid.
 struct Flat {
   Slot slot = 0;
@@ -76,11 +85,10 @@ struct Slots {
   std::vector<Slot> slot_of;  ///< by body
   std::vector<Place> place;
   std::vector<Moving> moving;
-  std::vector<Twist> twist;             ///< predicted for the time of the forces [m/s], [rad/s]
-  std::vector<Twist> old;               ///< accelerations at the last evaluation [m/s2], [rad/s2]
+  std::vector<Accelerations> old;       ///< at the last evaluation
   std::vector<std::uint32_t> material;  ///< index into Materials
   std::vector<Wrench> wrench;           ///< of contacts; behind those of the slots, room for parts of sums
-  std::vector<Vec3> field_force;        ///< of force fields [N]
+  std::vector<Lanes> field_force;       ///< of force fields [N]; the fourth is zero
   std::vector<Vec3> field_torque;       ///< [N m]; empty where no field turns a body
   std::vector<double> inverse_moment;   ///< where the three moments are equal [1/(kg m2)]; else 0
   std::vector<Flat> flats;              ///< by slot

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "four.hpp"
 #include "scree/parallel/executor.hpp"
 
 namespace scree::dem {
@@ -33,6 +34,9 @@ void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
   const KickWork work = kick_work(h, stage);
   const double correct = stage == Stage::first ? 0.0 : 0.5 * h, ahead = stage == Stage::last ? 0.0 : h;
   const bool turns = !slots.field_torque.empty();
+  // Four numbers at a time: behind a velocity lies the inverse mass, behind a place the radius, behind the rest zero.
+  constexpr Lanes kVector{1.0, 1.0, 1.0, 0.0};
+  Lanes contact_work{}, force_work{};
   double fastest2 = 0.0;
   for (std::size_t k = first; k < last; ++k) {
     Moving& body = slots.moving[k];
@@ -44,23 +48,27 @@ void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
       fastest2 = std::max(fastest2, squared_norm(body.linear));
       continue;
     }
-    const Vec3& force = slots.field_force[k];
-    const Vec3 torque = turns ? slots.field_torque[k] : Vec3{};
-    Twist& old = slots.old[k];
-    const Vec3 a = body.inverse_mass * (contact.force + force);
-    const Vec3 alpha = slots.inverse_moment[k] * (contact.torque + torque);
-    const Vec3 v = body.linear + correct * (a - old.linear), w = body.angular + correct * (alpha - old.angular);
-    const Vec3 mean = v + work.shift * a;
-    // Of bodies of `turning`, turn_chunk() counts it.
-    const Vec3 mean_spin = slots.inverse_moment[k] > 0.0 ? w + work.shift * alpha : Vec3{};
-    out.contact_work += work.impulse_time * (dot(contact.force, mean) + dot(contact.torque, mean_spin));
-    out.force_work += work.impulse_time * (dot(force, mean) + dot(torque, mean_spin));
-    place.position += ahead * (v + (0.5 * ahead) * a);
-    body.linear = v + ahead * a;
-    body.angular = w + ahead * alpha;
-    old = {a, alpha};
-    fastest2 = std::max(fastest2, squared_norm(body.linear));
+    const Lanes pull = four_of(contact), turn = four_of(contact, 1), force = slots.field_force[k];
+    const Lanes torque = turns ? four_of(slots.field_torque[k], 0.0) : Lanes{};
+    Accelerations& old = slots.old[k];
+    const Lanes a = body.inverse_mass * (pull + force), alpha = slots.inverse_moment[k] * (turn + torque);
+    const Lanes v = four_of(body) + correct * (a - four_of(old));
+    const Lanes w = four_of(body, 1) + correct * (alpha - four_of(old, 1));
+    // Of bodies of `turning`, turn_chunk() counts what torques do.
+    const double counts = slots.inverse_moment[k] > 0.0 ? 1.0 : 0.0;
+    const Lanes mean = v + work.shift * a, mean_spin = counts * (w + work.shift * alpha);
+    contact_work += pull * mean + turn * mean_spin;
+    force_work += force * mean + torque * mean_spin;
+    const Lanes next = v + ahead * a;
+    set_four(four_of(place) + (ahead * kVector) * (v + (0.5 * ahead) * a), place);
+    set_four(next, body);
+    set_four(w + ahead * alpha, body, 1);
+    set_four(a, old);
+    set_four(alpha, old, 1);
+    fastest2 = std::max(fastest2, next[0] * next[0] + next[1] * next[1] + next[2] * next[2]);
   }
+  out.contact_work += work.impulse_time * (contact_work[0] + contact_work[1] + contact_work[2]);
+  out.force_work += work.impulse_time * (force_work[0] + force_work[1] + force_work[2]);
   out.fastest = std::max(out.fastest, std::sqrt(fastest2));
 }
 
