@@ -42,24 +42,23 @@ void BallContacts::look_at(const Slots& slots, double reach, std::size_t first, 
   const Pair* const pairs = pairs_.data();
   const std::uint8_t* const flags = flags_.data();
   const Lanes* const records = records_.data();
-  const std::size_t end = pairs_.size() - 1;
   std::size_t hits = 0, parted = 0;
   for (std::size_t group = first; group < last; group += 4) {
+    const std::size_t most = std::min<std::size_t>(4, last - group), soon = group + kPrefetch;
+    for (std::size_t j = soon; j < std::min(soon + 4, pairs_.size()); ++j) __builtin_prefetch(&moving[pairs[j].b]);
     // What contacts keep is read next, and lies far apart where few of the pairs touch.
-    for (std::size_t at = stride_ * group; at < stride_ * (group + 4); at += kLine) __builtin_prefetch(records + at, 1);
+    for (std::size_t at = stride_ * group; at < stride_ * (group + most); at += kLine)
+      __builtin_prefetch(records + at, 1);
     std::array<Lanes, 4> apart;
     for (std::size_t j = 0; j < 4; ++j) {
-      const Slot soon = pairs[std::min(group + j + kPrefetch, end)].b;
-      __builtin_prefetch(&place[soon]);
-      __builtin_prefetch(&moving[soon]);
-      const Pair& pair = pairs[std::min(group + j, last - 1)];
+      const Pair& pair = pairs[group + (most == 4 ? j : j % most)];
       apart[j] = four_of(place[pair.b]) + kAway * four_of(place[pair.a]);
     }
     Lanes x = apart[0], y = apart[1], z = apart[2], radii = apart[3];
     transpose(x, y, z, radii);
     radii += reach;
     const unsigned touching = less(x * x + y * y + z * z, radii * radii);
-    for (std::size_t j = 0; j < std::min<std::size_t>(4, last - group); ++j) {
+    for (std::size_t j = 0; j < most; ++j) {
       const unsigned touch = touching >> j & 1;
       w.apart[hits] = apart[j];
       w.hit[hits] = w.gone[parted] = static_cast<std::uint32_t>(group + j);
