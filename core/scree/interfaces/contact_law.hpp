@@ -46,7 +46,7 @@ struct ContactBatch {
   alignas(64) Lane mass;     ///< effective, of what moves by forces [kg]
   Lanes3 normal;             ///< unit, from a to b [1], world
   Lanes3 velocity;           ///< of b's surface relative to a's where they touch [m/s], world
-  Lanes3 spin;               ///< angular velocity of b relative to a [rad/s], world
+  Lanes3 spin;               ///< angular velocity of b relative to a [rad/s], world; filled where resists_rolling()
   std::array<std::uint32_t, kMost> materials;  ///< material of a times the number of materials, plus that of b
   /// Springs. What a law integrates over time, s' = v, it keeps half a step ahead of the bodies. At a call
   ///     s = history + ahead v   is the spring now, and   s + lead v   what it writes back,

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kGrain = 4096;
 /// Bodies that touch drift apart in memory as they move; after so many outer steps they are sorted again.
 constexpr std::uint64_t kStepsBetweenSorts = 100;
-/// Part of the smallest radius: of a bed at rest as cheap as a smaller one, of grains in motion found to be near the best.
+/// Part of the smallest radius. A settled bed of 64 000 takes 1.1 to 1.4 times as long with a half, a quarter or twice of it.
 constexpr double kSkin = 0.2;
 /// Mean overlap over the radius at which a law is too soft to mean anything.
 constexpr double kDeep = 0.05;
@@ -209,10 +209,12 @@ void Dem::choose_sub_step(const Call& call) {
   h_ = call.dt / static_cast<double>(sub_steps_);
   if (told_ || !std::isfinite(stable)) return;
   told_ = true;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "time_stepper:dem: %zu sub-steps of %.4g s in a step; the stiffest contact allows %.4g s; skin %.4g m",
-                sub_steps_, h_, stable, skin_);
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "time_stepper:dem: %zu sub-steps of %.4g s in a step; the stiffest contact allows %.4g s; skin %.4g m, %zu "
+      "pairs of balls in %.4g MB",
+      sub_steps_, h_, stable, skin_, balls_.pairs(), 1e-6 * static_cast<double>(balls_.memory()));
   scene_->log(text);
 }
 

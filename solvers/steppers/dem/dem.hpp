@@ -29,7 +29,7 @@ struct DemOptions {
   bool at_contact_point = false;  ///< forces act midway between the surfaces, in place of at each undeformed surface
 };
 
-/// The stepper. No allocation in a sub-step once its workspace has its size.
+/// The stepper. No allocation in a sub-step once its workspace has its size, but for joints with stops or limited motors.
 class Dem final : public TimeStepper {
  public:
   explicit Dem(const DemOptions& options) : options_{options} {}
