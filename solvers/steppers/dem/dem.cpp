@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <ranges>
 #include <string>
 
 #include "scree/base/error.hpp"
@@ -105,10 +104,9 @@ void Dem::take_over(const Call& call) {
     list_is_good_ = false;
   }
   joints_.begin_step(call.services.machine(), bodies);
-  const auto flats = [&] { return slots_.flats | std::views::transform(&dem::Flat::slot); };
-  const std::vector<dem::Slot> old_flats{flats().begin(), flats().end()};
+  const std::vector<dem::Flat> old_flats = slots_.flats;
   slots_.load(bodies, scene_->shapes(), joints_.bodies(), call.services.executor());
-  list_is_good_ = list_is_good_ && std::ranges::equal(old_flats, flats());
+  list_is_good_ &= std::ranges::equal(old_flats, slots_.flats, {}, &dem::Flat::slot, &dem::Flat::slot);
   refuse_moving_surfaces_of_balls(bodies);
   balls_.begin_step(call.services.executor());
   shapes_.begin_step(bodies);
