@@ -106,7 +106,8 @@ constexpr std::uint64_t boundary_layout() {
                            offsetof(ContactView, velocity_before), offsetof(ContactView, velocity_after),
                            offsetof(ContactView, angular_impulse), offsetof(ContactView, age),
                            offsetof(ContactView, work), offsetof(ContactView, loads)});
-  digest.add<ContactLoad>({offsetof(ContactLoad, impulse), offsetof(ContactLoad, angular_impulse), offsetof(ContactLoad, work)});
+  digest.add<ContactLoad>(
+      {offsetof(ContactLoad, impulse), offsetof(ContactLoad, angular_impulse), offsetof(ContactLoad, work)});
   add_contact_problem(digest);
   digest.add<ColliderView>({offsetof(ColliderView, key), offsetof(ColliderView, body),
                             offsetof(ColliderView, primitive), offsetof(ColliderView, pose),

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "scree/ccp/cone3.hpp"
-#include "scree/math/lanes.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
 #include "scree/math/contact_frame.hpp"
+#include "scree/math/lanes.hpp"
 
 namespace scree {
 namespace {

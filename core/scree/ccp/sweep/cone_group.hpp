@@ -7,8 +7,8 @@
 #include <array>
 #include <cstdint>
 
-#include "scree/math/lanes.hpp"
 #include "scree/ccp/sweep/update.hpp"
+#include "scree/math/lanes.hpp"
 
 namespace scree::sweep {
 
