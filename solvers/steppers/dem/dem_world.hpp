@@ -73,7 +73,14 @@ class DemHost final : public StepServices {
     ++searches;
     balls_.clear(), others_.clear();
     for (BodyIndex a = 1; a < view.size(); ++a) {
-      if (view.position[a].z - view.radius[a] - view.position[0].z < skin) others_.push_back(a);
+      if (view.position[a].z - view.radius[a] - view.position[0].z >= skin) continue;
+      if (simple_floor && view.motion[0] == Motion::fixed) {
+        balls_.push_back({0, a});
+      } else {
+        others_.push_back(a);
+      }
+    }
+    for (BodyIndex a = 1; a < view.size(); ++a) {
       for (BodyIndex b = a + 1; b < view.size(); ++b) {
         if (norm(view.position[b] - view.position[a]) < view.radius[a] + view.radius[b] + skin)
           balls_.push_back({a, b});
@@ -101,8 +108,9 @@ class DemHost final : public StepServices {
   Machine* joints = nullptr;  ///< of the scene; none
   Vec3 gravity;               ///< [m/s2]
   bool steady = true;
-  int asked = 0;     ///< times that forces() was called
-  int searches = 0;  ///< for neighbours
+  bool simple_floor = true;  ///< as the real pipeline has it; else the narrow phase finds its contacts
+  int asked = 0;             ///< times that forces() was called
+  int searches = 0;          ///< for neighbours
 
  private:
   TestBodies& bodies_;
