@@ -37,8 +37,8 @@ class ForceField : public Plugin {
   /// reads it. Entries of bodies that do not move by forces are ignored.
   virtual void add_forces(const BodyView& bodies, double time, WrenchView out) const = 0;
 
-  /// True when the wrench depends on neither the place, the motion nor the time: steppers that divide the outer step then ask
-  /// for it once.
+  /// True when the wrench depends on neither place, motion nor time, and advance() has nothing to do: steppers that divide the
+  /// outer step then ask for it once, and nobody asks for contacts on its behalf.
   [[nodiscard]] virtual bool is_steady() const { return false; }
   /// True when potential_energy() is meaningful.
   [[nodiscard]] virtual bool is_conservative() const { return false; }

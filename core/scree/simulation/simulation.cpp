@@ -98,6 +98,7 @@ void Simulation::State::check_motion() const {
 void Simulation::State::advance_fields(double end) {
   const PhaseTimer::Scope scope{timer, Phase::fields};
   for (const Part<ForceField>& field : parts.forces) {
+    if (field.plugin->is_steady()) continue;  // and contacts need not be told for its sake
     guarded(field.info, ErrorKind::diverged, [&] {
       field.plugin->advance(bodies.view(), parts.stepper.plugin->contacts(), bodies.attributes(), end, time_step);
     });
@@ -106,6 +107,7 @@ void Simulation::State::advance_fields(double end) {
 
 void Simulation::State::observe() {
   const PhaseTimer::Scope scope{timer, Phase::observers};
+  if (parts.observers.empty()) return;
   const Observation now = observation(steps + 1);
   for (const Part<Observer>& observer : parts.observers) {
     guarded(observer.info, ErrorKind::diverged, [&] { observer.plugin->observe(now, bodies.attributes()); });

@@ -45,7 +45,10 @@ void BallContacts::look_at(const Slots& slots, double reach, std::size_t first, 
   std::size_t hits = 0, parted = 0;
   for (std::size_t group = first; group < last; group += 4) {
     const std::size_t most = std::min<std::size_t>(4, last - group), soon = group + kPrefetch;
-    for (std::size_t j = soon; j < std::min(soon + 4, pairs_.size()); ++j) __builtin_prefetch(&moving[pairs[j].b]);
+    for (std::size_t j = soon; j < std::min(soon + 4, pairs_.size()); ++j) {
+      __builtin_prefetch(&place[pairs[j].b]);
+      __builtin_prefetch(&moving[pairs[j].b]);
+    }
     // What contacts keep is read next, and lies far apart where few of the pairs touch.
     for (std::size_t at = stride_ * group; at < stride_ * (group + most); at += kLine)
       __builtin_prefetch(records + at, 1);

@@ -41,7 +41,7 @@ class BallContacts {
   ContactTally evaluate(Slots& slots, const Evaluation& evaluation, const Executor& executor);
 
   /// Writes the contacts that were held in this outer step, in order of bodies.
-  void report(const Slots& slots, const Executor& executor, ContactRecords& out);
+  void report(const Slots& slots, const Executor& executor, ContactRecords& out) const;
 
   [[nodiscard]] std::size_t history_size() const { return history_; }
   [[nodiscard]] bool rolls() const { return rolls_; }
@@ -120,7 +120,6 @@ class BallContacts {
   std::vector<Incoming> incoming_;  // by chunk of the slot
   std::vector<std::uint32_t> incoming_begin_;
   std::vector<ContactTally> tally_;
-  std::vector<std::size_t> report_begin_;
 };
 
 }  // namespace scree::dem

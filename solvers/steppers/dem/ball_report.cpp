@@ -24,17 +24,17 @@ void BallContacts::begin_step(const Executor& executor) {
   });
 }
 
-void BallContacts::report(const Slots& slots, const Executor& executor, ContactRecords& out) {
-  report_begin_.assign(Executor::chunk_count(neighbours_.size(), kGrain) + 1, 0);
+void BallContacts::report(const Slots& slots, const Executor& executor, ContactRecords& out) const {
+  std::vector<std::size_t> begin(Executor::chunk_count(neighbours_.size(), kGrain) + 1, 0);
   executor.for_chunks(neighbours_.size(), kGrain, [&](std::size_t first, std::size_t last) {
     std::size_t count = 0;
     for (std::size_t p = first; p < last; ++p) count += flags_[place_[p]] / kTouched & 1;
-    report_begin_[first / kGrain + 1] = count;
+    begin[first / kGrain + 1] = count;
   });
-  for (std::size_t c = 1; c < report_begin_.size(); ++c) report_begin_[c] += report_begin_[c - 1];
-  out.resize(report_begin_.back(), rolls_);
+  for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
+  out.resize(begin.back(), rolls_);
   executor.for_chunks(neighbours_.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    std::size_t to = report_begin_[first / kGrain];
+    std::size_t to = begin[first / kGrain];
     for (std::size_t p = first; p < last; ++p) {
       // Neighbours are in the order of bodies, what is kept of them in that of space.
       const std::size_t soon = place_[std::min(p + kPrefetch, neighbours_.size() - 1)];

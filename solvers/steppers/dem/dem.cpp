@@ -95,6 +95,7 @@ StepSummary Dem::step(StepServices& services, const BodyState& bodies, double ti
 /// Makes the columns those of the bodies of this step.
 void Dem::take_over(const Call& call) {
   const BodyView& bodies = call.bodies.view;
+  report_is_due_ = false;
   balls_.set_layout(call.law.history_size(), call.law.resists_rolling());
   const bool same = std::ranges::equal(ids_, bodies.id);
   if (!same || slots_.size() != bodies.size()) follow_bodies(bodies);
@@ -282,14 +283,10 @@ void Dem::watch_drift(const Call& call, double way) {
 void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const dem::Motions& work,
                        StepSummary& summary) {
   shape_records_.clear();
-  balls_.report(slots_, call.services.executor(), ball_records_);
   shapes_.report(slots_, call.bodies.view, call.law.resists_rolling(), shape_records_);
-  if (shape_records_.size() == 0) {
-    std::swap(records_, ball_records_);
-  } else {
-    records_.merge(ball_records_, shape_records_);
-  }
   slots_.report_loads(records_.loads);
+  executor_ = &call.services.executor();
+  report_is_due_ = true;
   if (mean_overlap(tally) > kDeep && !warned_) {
     warned_ = true;
     char text[200];
@@ -309,6 +306,20 @@ void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const d
                   .boundary_work = work.boundary_work,
                   .force_work = work.force_work,
                   .joint_work = joints_.work()};
+}
+
+ContactView Dem::contacts() const {
+  if (report_is_due_) {
+    report_is_due_ = false;
+    balls_.report(slots_, *executor_, ball_records_);
+    if (shape_records_.size() == 0) {
+      std::swap(ball_records_.loads, records_.loads);
+      std::swap(records_, ball_records_);
+    } else {
+      records_.merge(ball_records_, shape_records_);
+    }
+  }
+  return records_.view();
 }
 
 void Dem::save(StateWriter& out) const {
@@ -341,6 +352,7 @@ void Dem::load(const StateReader& in) {
   balls_.load(in, ids_);
   shapes_.load(in, history);
   list_is_good_ = false;
+  report_is_due_ = false;
 }
 
 }  // namespace scree

@@ -40,7 +40,8 @@ class Dem final : public TimeStepper {
   [[nodiscard]] bool needs_contact_law() const override { return true; }
   [[nodiscard]] bool holds_joints() const override { return true; }
   StepSummary step(StepServices& services, const BodyState& bodies, double time, double dt) override;
-  [[nodiscard]] ContactView contacts() const override { return records_.view(); }
+  /// Made when asked for: most steps of most scenes have nobody who looks at them.
+  [[nodiscard]] ContactView contacts() const override;
   void save(StateWriter& out) const override;
   void load(const StateReader& in) override;
 
@@ -79,7 +80,10 @@ class Dem final : public TimeStepper {
   dem::BallContacts balls_;
   dem::ShapeContacts shapes_;
   dem::Joints joints_;
-  dem::ContactRecords records_, ball_records_, shape_records_;
+  mutable dem::ContactRecords records_, ball_records_;  ///< of the last step, once contacts() was called
+  mutable bool report_is_due_ = false;
+  dem::ContactRecords shape_records_;
+  const Executor* executor_ = nullptr;
 
   std::vector<BodyId> ids_;                       ///< of the bodies that all of the above numbers
   std::vector<BodyIndex> listed_;                 ///< bodies whose poses the host needs for the contacts of shapes
