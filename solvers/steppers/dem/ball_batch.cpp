@@ -16,16 +16,17 @@ constexpr Lanes kAway{-1.0, -1.0, -1.0, 1.0};  // from a to b, and the sum of wh
 void BallContacts::measure(const Slots& slots, const Evaluation& e, BallWork& w) const {
   ContactBatch& batch = w.batch;
   const Place* const place = slots.place.data();
-  for (std::size_t k = 0; k < batch.count; k += 4) {
+  const std::size_t count = padded(batch.count);
+  for (std::size_t k = 0; k < count; k += 4) {
     set_columns(w.apart[k], w.apart[k + 1], w.apart[k + 2], w.apart[k + 3], k, batch.normal);
   }
-  for (std::size_t k = 0; k < batch.count; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const Pair& pair = pairs_[w.hit[k]];
     w.radius_a[k] = place[pair.a].radius;
     w.radius_b[k] = place[pair.b].radius;
   }
   const double sunk = e.at_contact_point ? 0.5 : 0.0;
-  for (std::size_t k = 0; k < batch.count; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const double x = batch.normal.x[k], y = batch.normal.y[k], z = batch.normal.z[k];
     const double distance = std::sqrt(x * x + y * y + z * z);
     // Of two balls with one centre any normal will do.

@@ -58,10 +58,12 @@ inline std::array<Lanes, 4> rows(const ContactBatch::Lanes3& in, std::size_t k) 
   transpose(out[0], out[1], out[2], out[3]);
   return out;
 }
-/// Loops over four lanes at a time run over the end: the last contact stands there once more.
+/// Lanes that loops over four at a time reach.
+inline std::size_t padded(std::size_t count) { return (count + 3) / 4 * 4; }
+/// Such loops run over the end: the last contact stands there once more.
 inline void fill_lanes(BallWork& w) {
   const std::size_t count = w.batch.count;
-  for (std::size_t k = count; k % 4 != 0; ++k) w.hit[k] = w.hit[count - 1], w.apart[k] = w.apart[count - 1];
+  for (std::size_t k = count; k < padded(count); ++k) w.hit[k] = w.hit[count - 1], w.apart[k] = w.apart[count - 1];
 }
 
 }  // namespace scree::dem

@@ -28,7 +28,7 @@ void BallContacts::look_at_flats(const Slots& slots, double reach, std::size_t f
 
 void BallContacts::measure_flats(const Slots& slots, const Evaluation& e, BallWork& w) const {
   const double sunk = e.at_contact_point ? 0.5 : 0.0;
-  for (std::size_t k = 0; k < (w.batch.count + 3) / 4 * 4; ++k) {  // see fill_lanes()
+  for (std::size_t k = 0; k < padded(w.batch.count); ++k) {
     const FlatPair& pair = flat_pairs_[w.hit[k]];
     const double radius = slots.place[pair.ball].radius, overlap = w.apart[k][3];
     const Vec3& out = slots.flats[pair.flat].normal;
