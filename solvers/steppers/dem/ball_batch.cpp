@@ -6,12 +6,6 @@
 #include "ball_work.hpp"
 
 namespace scree::dem {
-namespace {
-
-constexpr Lanes kAway{-1.0, -1.0, -1.0, 1.0};  // from a to b, and the sum of what comes fourth
-
-}  // namespace
-
 /// Distances and normals.
 void BallContacts::measure(const Slots& slots, const Evaluation& e, BallWork& w) const {
   ContactBatch& batch = w.batch;
@@ -53,7 +47,7 @@ void BallContacts::gather(const Slots& slots, const Evaluation& e, BallWork& w) 
       const Moving &a = moving[pair.a], &b = moving[pair.b];
       const Lanes spin_a = four_of(a, 1), spin_b = four_of(b, 1);
       linear[j] = four_of(b) + kAway * four_of(a);
-      angular[j] = splat(w.arm_a[k]) * spin_a + splat(w.arm_b[k]) * spin_b;
+      angular[j] = w.arm_a[k] * spin_a + w.arm_b[k] * spin_b;
       spin[j] = spin_b - spin_a;
     }
     const Lanes inverse_mass = set_columns(linear[0], linear[1], linear[2], linear[3], first, batch.velocity);
@@ -132,7 +126,7 @@ void BallContacts::scatter(Slots& slots, const BallWork& w) const {
     for (std::size_t j = 0; j < std::min<std::size_t>(4, batch.count - first); ++j) {
       const Pair& pair = pairs_[w.hit[first + j]];
       Wrench &on_a = wrench[pair.to_a], &on_b = wrench[pair.to_b];
-      Lanes turn_a = -splat(w.arm_a[first + j]) * lever[j], turn_b = -splat(w.arm_b[first + j]) * lever[j];
+      Lanes turn_a = -w.arm_a[first + j] * lever[j], turn_b = -w.arm_b[first + j] * lever[j];
       if constexpr (kRolls) turn_a -= torque[j], turn_b += torque[j];
       set_four(four_of(on_a) - force[j], on_a);
       set_four(four_of(on_a, 1) + turn_a, on_a, 1);

@@ -15,7 +15,6 @@ namespace {
 constexpr std::size_t kChunk = Verlet::kChunk;
 constexpr std::size_t kPrefetch = 12;              // pairs ahead
 constexpr std::size_t kLine = 64 / sizeof(Lanes);  // of the cache
-constexpr Lanes kAway{-1.0, -1.0, -1.0, 1.0};
 
 /// Bit k: a[k] < b[k].
 unsigned less(const Lanes& a, const Lanes& b) {
@@ -84,28 +83,28 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
   BallWork w;
   w.batch.lead = 0.5 * e.h;
   w.batch.materials = {};
-  for (std::size_t k = chunk_begin_[chunk]; k < chunk_begin_[chunk + 1]; k += kPairsAtOnce) {
-    look_at(slots, e.reach, k, std::min<std::size_t>(k + kPairsAtOnce, chunk_begin_[chunk + 1]), w);
-    let_go(w);
-    if (w.batch.count == 0) continue;
-    measure(slots, e, w);
-    gather(slots, e, w);
-    recall(w);
-    apply_law(e, w);
-    scatter(slots, w);
-    keep(e, w);
-  }
-  for (std::size_t k = flat_begin_[chunk]; k < flat_begin_[chunk + 1]; k += kPairsAtOnce) {
-    look_at_flats(slots, e.reach, k, std::min<std::size_t>(k + kPairsAtOnce, flat_begin_[chunk + 1]), w);
-    let_go(w);
-    if (w.batch.count == 0) continue;
-    measure_flats(slots, e, w);
-    gather_flats(slots, e, w);
-    recall(w);
-    apply_law(e, w);
-    scatter_flats(slots, e, w);
-    keep(e, w);
-  }
+  // Looks at the pairs `begin` .. `end` - 1 of one kind, and lets those that touch act.
+  const auto go_over = [&](std::size_t begin, std::size_t end, const auto& look, const auto& find_state,
+                           const auto& add) {
+    for (std::size_t k = begin; k < end; k += kPairsAtOnce) {
+      look(k, std::min(k + kPairsAtOnce, end));
+      let_go(w);
+      if (w.batch.count == 0) continue;
+      find_state();
+      recall(w);
+      apply_law(e, w);
+      add();
+      keep(e, w);
+    }
+  };
+  go_over(
+      chunk_begin_[chunk], chunk_begin_[chunk + 1],
+      [&](std::size_t first, std::size_t last) { look_at(slots, e.reach, first, last, w); },
+      [&] { measure(slots, e, w), gather(slots, e, w); }, [&] { scatter(slots, w); });
+  go_over(
+      flat_begin_[chunk], flat_begin_[chunk + 1],
+      [&](std::size_t first, std::size_t last) { look_at_flats(slots, e.reach, first, last, w); },
+      [&] { measure_flats(slots, e, w), gather_flats(slots, e, w); }, [&] { scatter_flats(slots, e, w); });
   for (std::size_t k = 0; k < 4; ++k) w.tally.greatest_overlap = std::max(w.tally.greatest_overlap, w.greatest[k]);
   return w.tally;
 }

@@ -16,6 +16,9 @@ namespace scree::dem {
 inline constexpr std::size_t kPairsAtOnce = 64;
 static_assert(kPairsAtOnce <= ContactBatch::kMost && kPairsAtOnce % 4 == 0);
 
+/// Of the fours of a and b, b - a and, of what comes last, the sum: four(b) + kAway * four(a).
+inline constexpr Lanes kAway{-1.0, -1.0, -1.0, 1.0};
+
 struct BallWork {
   using Lane = ContactBatch::Lane;
 

@@ -20,7 +20,6 @@ template <class Record>
 void set_four(const Lanes& values, Record& record, std::size_t quadruple = 0) {
   std::memcpy(reinterpret_cast<char*>(&record) + quadruple * sizeof values, &values, sizeof values);
 }
-inline Lanes splat(double value) { return Lanes{value, value, value, value}; }
 inline Lanes four_of(const Vec3& v, double fourth) { return Lanes{v.x, v.y, v.z, fourth}; }
 
 }  // namespace scree::dem

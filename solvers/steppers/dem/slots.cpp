@@ -100,7 +100,8 @@ void Slots::find_turning(const BodyView& bodies, const ShapeSet& shapes, std::sp
     const bool dynamic = moving[k].is_dynamic();
     const bool plain_ball = is_ball(k) && (!dynamic || inverse_moment[k] > 0.0);
     if (bodies.motion[i] == Motion::fixed) {
-      standing.emplace_back().body = k;
+      standing.push_back({.slot = k});
+      standing.back().load.body = i;
       continue;
     }
     if (plain_ball && !std::ranges::binary_search(oriented, i)) continue;
@@ -157,10 +158,7 @@ void Slots::store_poses(const BodyState& bodies, std::span<const BodyIndex> some
 void Slots::report_loads(std::vector<ContactLoad>& out) const {
   out.clear();
   for (const Turning& t : turning) out.push_back(t.load);
-  for (ContactLoad load : standing) {
-    load.body = body[load.body];
-    out.push_back(load);
-  }
+  for (const Standing& s : standing) out.push_back(s.load);
   std::ranges::sort(out, {}, &ContactLoad::body);
 }
 

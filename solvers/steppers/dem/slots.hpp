@@ -79,6 +79,12 @@ struct Turning {
   ContactLoad load = {};      ///< of contacts, since load()
 };
 
+/// A body that is fixed.
+struct Standing {
+  Slot slot = 0;
+  ContactLoad load = {};  ///< of contacts, since load()
+};
+
 /// Columns by slot, all of one length.
 struct Slots {
   std::vector<BodyIndex> body;
@@ -92,10 +98,9 @@ struct Slots {
   std::vector<Vec3> field_torque;       ///< [N m]; empty where no field turns a body
   std::vector<double> inverse_moment;   ///< where the three moments are equal [1/(kg m2)]; else 0
   std::vector<Flat> flats;              ///< by slot
-  /// Loads since load() of what is fixed; their numbers of bodies are slots.
-  std::vector<ContactLoad> standing;
-  std::vector<Turning> turning;  ///< by slot
-  std::vector<double> reach;     ///< by entry of turning: farthest point from the centre of mass [m]
+  std::vector<Standing> standing;       ///< by slot
+  std::vector<Turning> turning;         ///< by slot
+  std::vector<double> reach;            ///< by entry of turning: farthest point from the centre of mass [m]
 
   [[nodiscard]] std::size_t size() const { return body.size(); }
   [[nodiscard]] bool is_ball(Slot slot) const { return place[slot].radius > 0.0; }
@@ -106,7 +111,8 @@ struct Slots {
   void sort(const BodyView& bodies);
   /// Takes an order that sort() gave before: the body of each slot.
   void set_order(std::span<const BodyIndex> bodies);
-  /// Fills the columns from the bodies. Balls turn evenly and are oriented once an outer step, but for those of `oriented`, which are sorted.
+  /// Fills the columns from the bodies. Balls turn evenly and are oriented once an outer step, but for those of `oriented`,
+  /// which are sorted.
   void load(const BodyView& bodies, const ShapeSet& shapes, std::span<const BodyIndex> oriented,
             const Executor& executor);
   /// Writes positions, orientations and velocities back. `dt` [s] since load(): balls turn by their mean angular velocity.

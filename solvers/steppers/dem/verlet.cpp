@@ -122,9 +122,9 @@ Motions Verlet::advance(Slots& slots, double h, Stage stage, const Executor& exe
     turn_chunk(slots, h, stage, first, last, partial_[chunks + first / kChunk]);
   });
   const double impulse_time = kick_work(h, stage).impulse_time;
-  for (ContactLoad& load : slots.standing) {
-    load.impulse += impulse_time * slots.wrench[load.body].force;
-    load.angular_impulse += impulse_time * slots.wrench[load.body].torque;
+  for (Standing& body : slots.standing) {
+    body.load.impulse += impulse_time * slots.wrench[body.slot].force;
+    body.load.angular_impulse += impulse_time * slots.wrench[body.slot].torque;
   }
   Motions sum;
   for (const Motions& part : partial_) {
