@@ -88,7 +88,9 @@ class CollisionPipeline {
   /// The pairs of the colliders first..last-1, sorted; they lie in pairs_, from `room` on.
   std::span<ColliderPair> keep_chunk(std::size_t first, std::size_t last, std::size_t room);
   void place_colliders(const BodyView& bodies, std::span<const Vec3> velocity, std::span<const Vec3> angular_velocity);
-  void part_neighbours(const BodyView& bodies, std::span<const ColliderPair> pairs);
+  struct NeighbourChunk;
+  void part_neighbours(const BodyView& bodies, std::span<const ColliderPair> pairs, std::size_t room,
+                       NeighbourChunk& out);
   void drop_distant_neighbours();
   void look_at_neighbours();
   void collide(std::span<const ColliderPair> pairs, ContactBuffer& out) const;
@@ -124,7 +126,13 @@ class CollisionPipeline {
   std::vector<ColliderPair> wall_pairs_;
   ContactBuffer wall_contacts_;
 
-  std::vector<BodyPair> ball_neighbours_;
+  /// What find_neighbours() makes of a chunk of colliders.
+  struct NeighbourChunk {
+    std::size_t pairs = 0, balls = 0;
+    std::vector<ColliderPair> others;
+  };
+  std::vector<NeighbourChunk> chunk_neighbours_;
+  UninitialisedVector<BodyPair> ball_neighbours_;
   std::vector<ColliderPair> other_neighbours_;
   std::vector<ColliderIndex> followed_;     // the colliders of those
   std::vector<BodyIndex> followed_bodies_;  // and their bodies

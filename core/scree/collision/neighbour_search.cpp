@@ -24,24 +24,33 @@ NeighbourView CollisionPipeline::find_neighbours(const BodyView& bodies, double 
   plain_ = all_plain();
   cut_into_chunks();
   const std::size_t chunks = chunk_begin_.size() - 1;
-  ball_neighbours_.clear();
-  other_neighbours_.clear();
-  resize_kept(sorter_.size(), pairs_);
-  chunk_pairs_.resize(chunks);
-  executor_.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
-    const std::size_t first = chunk_begin_[chunk];
-    chunk_pairs_[chunk] = keep_chunk(first, chunk_begin_[chunk + 1], sorter_.begin(first)).size();
+  resize_kept(sorter_.size(), pairs_, ball_neighbours_);
+  chunk_neighbours_.resize(chunks);
+  executor_.for_chunks(chunks, 1, [&](std::size_t k, std::size_t) {
+    const std::size_t first = chunk_begin_[k], room = sorter_.begin(first);
+    part_neighbours(bodies, keep_chunk(first, chunk_begin_[k + 1], room), room, chunk_neighbours_[k]);
   });
+  std::size_t balls = 0;
+  other_neighbours_.clear();
   for (std::size_t k = 0; k < chunks; ++k) {
-    counts_.pairs += chunk_pairs_[k];
-    part_neighbours(bodies, {pairs_.data() + sorter_.begin(chunk_begin_[k]), chunk_pairs_[k]});
+    const NeighbourChunk& of = chunk_neighbours_[k];
+    const auto room = ball_neighbours_.begin() + static_cast<std::ptrdiff_t>(sorter_.begin(chunk_begin_[k]));
+    std::copy_n(room, of.balls, ball_neighbours_.begin() + static_cast<std::ptrdiff_t>(balls));
+    balls += of.balls;
+    other_neighbours_.insert(other_neighbours_.end(), of.others.begin(), of.others.end());
+    counts_.pairs += of.pairs;
   }
+  ball_neighbours_.resize(balls);
   drop_distant_neighbours();
   return {ball_neighbours_, followed_bodies_};
 }
 
-/// Adds pairs of two balls, or of a ball near a flat, to the one list, and all other pairs to the other.
-void CollisionPipeline::part_neighbours(const BodyView& bodies, std::span<const ColliderPair> pairs) {
+/// Puts pairs of two balls, or of a ball near a flat, into ball_neighbours_ from `room` on, and all other pairs into `out`.
+void CollisionPipeline::part_neighbours(const BodyView& bodies, std::span<const ColliderPair> pairs, std::size_t room,
+                                        NeighbourChunk& out) {
+  out.pairs = pairs.size();
+  out.balls = 0;
+  out.others.clear();
   const auto body = colliders_.view().body;
   const auto near = [&](BodyIndex ball, BodyIndex flat, double reach) {
     const Pose wall = {bodies.position[flat], bodies.orientation[flat]};
@@ -54,9 +63,9 @@ void CollisionPipeline::part_neighbours(const BodyView& bodies, std::span<const 
     const bool ball_a = colliders_.is_ball(bodies.shape[a]), ball_b = colliders_.is_ball(bodies.shape[b]);
     const bool simple = ball_a && ball_b;
     if (!simple && !(ball_a && is_flat(shapes_, bodies, b)) && !(ball_b && is_flat(shapes_, bodies, a))) {
-      other_neighbours_.push_back(pair);
+      out.others.push_back(pair);
     } else if (simple || near(ball_a ? a : b, ball_a ? b : a, pair.reach)) {
-      ball_neighbours_.push_back({a, b});
+      ball_neighbours_[room + out.balls++] = {a, b};
     }
   }
 }

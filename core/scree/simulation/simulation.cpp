@@ -1,6 +1,7 @@
 #include "scree/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -14,39 +15,9 @@ namespace scree {
 namespace {
 
 constexpr std::size_t kManyBorn = 1000;  // in a step
+constexpr std::size_t kGrain = 4096;
 
 }  // namespace
-
-void StepBackup::keep(const BodyStore& bodies) {
-  const BodyView view = bodies.view();
-  kept = true;
-  position.assign(view.position.begin(), view.position.end());
-  orientation.assign(view.orientation.begin(), view.orientation.end());
-  velocity.assign(view.velocity.begin(), view.velocity.end());
-  angular_velocity.assign(view.angular_velocity.begin(), view.angular_velocity.end());
-  attributes.resize(bodies.attributes().count());
-  for (AttributeId id = 0; id < attributes.size(); ++id) {
-    const std::span<const double> column = bodies.attributes().column(id);
-    attributes[id].assign(column.begin(), column.end());
-  }
-}
-
-void StepBackup::forget() {
-  kept = false;
-  if (position.size() >= kManyRecords) *this = {};
-}
-
-void StepBackup::restore(BodyStore& bodies) const {
-  if (!kept) return;  // nothing has changed yet
-  const BodyState state = bodies.state();
-  std::copy(position.begin(), position.end(), state.position.begin());
-  std::copy(orientation.begin(), orientation.end(), state.orientation.begin());
-  std::copy(velocity.begin(), velocity.end(), state.velocity.begin());
-  std::copy(angular_velocity.begin(), angular_velocity.end(), state.angular_velocity.begin());
-  for (AttributeId id = 0; id < attributes.size(); ++id) {
-    std::copy(attributes[id].begin(), attributes[id].end(), bodies.attributes().column(id).begin());
-  }
-}
 
 Observation Simulation::State::observation(std::uint64_t step) const {
   return {bodies.view(), parts.stepper.plugin->contacts(), removed, static_cast<double>(step) * time_step, time_step,
@@ -83,16 +54,23 @@ StepSummary Simulation::State::advance() {
 
 void Simulation::State::check_motion() const {
   const BodyView view = bodies.view();
-  for (std::size_t i = 0; i < view.size(); ++i) {
+  const auto is_sound = [&](std::size_t i) {
     // A single comparison catches NaN as well.
-    const bool sound = is_finite(view.position[i]) && is_finite(view.angular_velocity[i]) &&
-                       squared_norm(view.velocity[i]) <= max_speed * max_speed;
-    if (sound) continue;
-    throw Error{ErrorKind::diverged,
-                "body " + std::to_string(view.id[i]) + " moves at " + std::to_string(norm(view.velocity[i])) +
-                    " m/s at t = " + std::to_string(time() + time_step) + " s, above simulation.max_speed = " +
-                    std::to_string(max_speed) + " m/s; take a smaller time_step, or look at the forces on that body"};
-  }
+    return is_finite(view.position[i]) && is_finite(view.angular_velocity[i]) &&
+           squared_norm(view.velocity[i]) <= max_speed * max_speed;
+  };
+  std::atomic<bool> all_sound{true};
+  executor.for_chunks(view.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      if (!is_sound(i)) all_sound = false;
+  });
+  if (all_sound) return;
+  std::size_t i = 0;
+  while (is_sound(i)) ++i;
+  throw Error{ErrorKind::diverged,
+              "body " + std::to_string(view.id[i]) + " moves at " + std::to_string(norm(view.velocity[i])) +
+                  " m/s at t = " + std::to_string(time() + time_step) + " s, above simulation.max_speed = " +
+                  std::to_string(max_speed) + " m/s; take a smaller time_step, or look at the forces on that body"};
 }
 
 void Simulation::State::advance_fields(double end) {
@@ -140,13 +118,14 @@ void Simulation::State::remove_bodies(double at) {
 }
 
 StepSummary Simulation::State::take_step() {
-  if (!parts.stepper.plugin->announces_motion()) backup.keep(bodies);
+  const bool keeps_late = parts.stepper.plugin->announces_motion();
+  if (!keeps_late) backup.keep(bodies, executor);
   machine->keep();
   try {
     const double end = static_cast<double>(steps + 1) * time_step;
     motions.begin_step(bodies, end, time_step);
     const StepSummary summary = advance();
-    if (!backup.kept) backup.keep(bodies);  // the stepper had nothing to move
+    if (!backup.kept()) backup.keep(bodies, executor);  // the stepper had nothing to move
     motions.end_step(bodies);
     check_motion();
     host->tap_next({});
@@ -158,7 +137,7 @@ StepSummary Simulation::State::take_step() {
     ++steps;
     energy.work += summary.work;
     fed_this_step = false;
-    backup.forget();
+    keeps_late ? backup.release_memory() : backup.forget();
     return summary;
   } catch (...) {
     backup.restore(bodies);

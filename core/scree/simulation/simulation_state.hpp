@@ -13,24 +13,10 @@
 #include "scree/simulation/scene_model.hpp"
 #include "scree/simulation/setup_services.hpp"
 #include "scree/simulation/simulation.hpp"
+#include "scree/simulation/step_backup.hpp"
 #include "scree/simulation/step_host.hpp"
 
 namespace scree {
-
-/// What a step changes of the bodies, kept before it does, so that a step that fails can be undone.
-struct StepBackup {
-  bool kept = false;                   // in this step
-  std::vector<Vec3> position;          // [m]
-  std::vector<Quat> orientation;       // [1]
-  std::vector<Vec3> velocity;          // [m/s]
-  std::vector<Vec3> angular_velocity;  // [rad/s]
-  std::vector<std::vector<double>> attributes;
-
-  void keep(const BodyStore& bodies);
-  /// For the next step. In large scenes the memory is freed.
-  void forget();
-  void restore(BodyStore& bodies) const;
-};
 
 struct Simulation::State {
   State(const SceneDocument& document, const PluginCatalog& catalog, const SimulationSettings& wanted);

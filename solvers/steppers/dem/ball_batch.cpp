@@ -64,8 +64,8 @@ void BallContacts::gather(const Slots& slots, const Evaluation& e, BallWork& w) 
 /// What contacts keep, pair by pair.
 void BallContacts::recall(BallWork& w) const {
   ContactBatch& batch = w.batch;
-  const Lanes* const records = records_.data() + stride_ * w.first;
-  const std::uint8_t* const all_flags = flags_.data() + w.first;
+  const Lanes* const records = list_.records.data() + stride_ * w.first;
+  const std::uint8_t* const all_flags = list_.flags.data() + w.first;
   for (std::size_t k = 0; k < batch.count; ++k) {
     const std::uint8_t flags = all_flags[w.hit[k]];
     w.is_new[k] = (flags & kTouching) == 0 ? 1.0 : 0.0;
@@ -125,7 +125,7 @@ void BallContacts::scatter(Slots& slots, const BallWork& w) const {
     if constexpr (kRolls) torque = rows(batch.torque, first);
     for (std::size_t j = 0; j < std::min<std::size_t>(4, batch.count - first); ++j) {
       const Pair& pair = pairs_[w.hit[first + j]];
-      Wrench &on_a = wrench[pair.to_a], &on_b = wrench[pair.to_b];
+      Wrench &on_a = wrench[pair.a], &on_b = wrench[pair.to_b];
       Lanes turn_a = -w.arm_a[first + j] * lever[j], turn_b = -w.arm_b[first + j] * lever[j];
       if constexpr (kRolls) turn_a -= torque[j], turn_b += torque[j];
       set_four(four_of(on_a) - force[j], on_a);
@@ -144,7 +144,7 @@ void BallContacts::scatter(Slots& slots, const BallWork& w) const {
 /// Springs, work and impulses, pair by pair.
 void BallContacts::write_records(double time, const BallWork& w) {
   const ContactBatch& batch = w.batch;
-  Lanes* const records = records_.data() + stride_ * w.first;
+  Lanes* const records = list_.records.data() + stride_ * w.first;
   for (std::size_t first = 0; first < batch.count; first += 4) {
     const std::size_t most = std::min<std::size_t>(4, batch.count - first);
     for (std::size_t q = 0; q < springs_; ++q) {
@@ -167,8 +167,8 @@ void BallContacts::write_records(double time, const BallWork& w) {
 void BallContacts::keep(const Evaluation& e, BallWork& w) {
   const ContactBatch& batch = w.batch;
   write_records(kick_time(e), w);
-  std::uint8_t* const all_flags = flags_.data() + w.first;
-  Vec3* const before = before_.data() + w.first;
+  std::uint8_t* const all_flags = list_.flags.data() + w.first;
+  Vec3* const before = list_.before.data() + w.first;
   for (std::size_t k = 0; k < batch.count; ++k) {
     const std::size_t pair = w.hit[k];
     std::uint8_t& flags = all_flags[pair];
@@ -191,9 +191,9 @@ void BallContacts::keep(const Evaluation& e, BallWork& w) {
 void BallContacts::let_go(const BallWork& w) {
   for (std::size_t g = 0; g < w.parted; ++g) {
     const std::size_t pair = w.first + w.gone[g];
-    flags_[pair] = static_cast<std::uint8_t>(flags_[pair] & kTouched);
+    list_.flags[pair] = static_cast<std::uint8_t>(list_.flags[pair] & kTouched);
     for (std::size_t q = 0; q < springs_; ++q) {
-      Lanes& springs = records_[stride_ * pair + q];
+      Lanes& springs = list_.records[stride_ * pair + q];
       springs = q + 1 < springs_ ? Lanes{} : Lanes{0.0, 0.0, 0.0, springs[3]};
     }
   }

@@ -39,8 +39,8 @@ void BallContacts::look_at(const Slots& slots, double reach, std::size_t first, 
   const Place* const place = slots.place.data();
   const Moving* const moving = slots.moving.data();
   const Pair* const pairs = pairs_.data();
-  const std::uint8_t* const flags = flags_.data();
-  const Lanes* const records = records_.data();
+  const std::uint8_t* const flags = list_.flags.data();
+  const Lanes* const records = list_.records.data();
   std::size_t hits = 0, parted = 0;
   for (std::size_t group = first; group < last; group += 4) {
     const std::size_t most = std::min<std::size_t>(4, last - group), soon = group + kPrefetch;
@@ -110,14 +110,14 @@ ContactTally BallContacts::evaluate_chunk(Slots& slots, const Evaluation& e, std
 }
 
 ContactTally BallContacts::evaluate(Slots& slots, const Evaluation& e, const Executor& executor) {
-  const std::size_t chunks = Executor::chunk_count(slots.size(), kChunk), bodies = slots.size();
+  const std::size_t chunks = Executor::chunk_count(slots.size(), kChunk);
   tally_.assign(chunks, ContactTally{});
-  slots.wrench.resize(bodies + ghost_begin_.back());
+  slots.wrench.resize(slots.size() + ghost_begin_.back());
   executor.for_chunks(chunks, 1,
                       [&](std::size_t chunk, std::size_t) { tally_[chunk] = evaluate_chunk(slots, e, chunk); });
   executor.for_chunks(chunks, 1, [&](std::size_t chunk, std::size_t) {
     for (std::size_t k = incoming_begin_[chunk]; k < incoming_begin_[chunk + 1]; ++k) {
-      slots.wrench[incoming_[k].slot] += slots.wrench[bodies + incoming_[k].ghost];
+      slots.wrench[incoming_[k].slot] += slots.wrench[incoming_[k].ghost];
     }
   });
   ContactTally sum;

@@ -14,40 +14,40 @@ constexpr std::size_t kPrefetch = 16;  // neighbours ahead
 }  // namespace
 
 void BallContacts::begin_step(const Executor& executor) {
-  executor.for_chunks(flags_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+  executor.for_chunks(list_.flags.size(), kGrain, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      if ((flags_[k] & kTouched) == 0) continue;
-      flags_[k] = static_cast<std::uint8_t>(flags_[k] & (kTouching | kLeaving));
-      records_[stride_ * k + springs_ - 1][3] = 0.0;
-      for (std::size_t q = springs_; q < stride_; ++q) records_[stride_ * k + q] = Lanes{};
+      if ((list_.flags[k] & kTouched) == 0) continue;
+      list_.flags[k] = static_cast<std::uint8_t>(list_.flags[k] & (kTouching | kLeaving));
+      list_.records[stride_ * k + springs_ - 1][3] = 0.0;
+      for (std::size_t q = springs_; q < stride_; ++q) list_.records[stride_ * k + q] = Lanes{};
     }
   });
 }
 
 void BallContacts::report(const Slots& slots, const Executor& executor, ContactRecords& out) const {
-  std::vector<std::size_t> begin(Executor::chunk_count(neighbours_.size(), kGrain) + 1, 0);
-  executor.for_chunks(neighbours_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+  std::vector<std::size_t> begin(Executor::chunk_count(list_.pairs.size(), kGrain) + 1, 0);
+  executor.for_chunks(list_.pairs.size(), kGrain, [&](std::size_t first, std::size_t last) {
     std::size_t count = 0;
-    for (std::size_t p = first; p < last; ++p) count += flags_[place_[p]] / kTouched & 1;
+    for (std::size_t p = first; p < last; ++p) count += list_.flags[list_.place[p]] / kTouched & 1;
     begin[first / kGrain + 1] = count;
   });
   for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
   out.resize(begin.back(), rolls_);
-  executor.for_chunks(neighbours_.size(), kGrain, [&](std::size_t first, std::size_t last) {
+  executor.for_chunks(list_.pairs.size(), kGrain, [&](std::size_t first, std::size_t last) {
     std::size_t to = begin[first / kGrain];
     for (std::size_t p = first; p < last; ++p) {
       // Neighbours are in the order of bodies, what is kept of them in that of space.
-      const std::size_t soon = place_[std::min(p + kPrefetch, neighbours_.size() - 1)];
-      __builtin_prefetch(&records_[stride_ * soon]);
-      __builtin_prefetch(&before_[soon]);
+      const std::size_t soon = list_.place[std::min(p + kPrefetch, list_.pairs.size() - 1)];
+      __builtin_prefetch(&list_.records[stride_ * soon]);
+      __builtin_prefetch(&list_.before[soon]);
       if (soon < pairs_.size()) __builtin_prefetch(&pairs_[soon]);
-      if ((flags_[place_[p]] & kTouched) != 0) report_one(slots, p, to++, out);
+      if ((list_.flags[list_.place[p]] & kTouched) != 0) report_one(slots, p, to++, out);
     }
   });
 }
 
 void BallContacts::report_one(const Slots& slots, std::size_t neighbour, std::size_t to, ContactRecords& out) const {
-  const std::size_t at = place_[neighbour];
+  const std::size_t at = list_.place[neighbour];
   Vec3 normal, point, after;
   double gap = 0.0;
   if (at < pairs_.size()) {
@@ -72,20 +72,23 @@ void BallContacts::report_one(const Slots& slots, std::size_t neighbour, std::si
     after = towards_b * moving.linear - cross(ball.radius * moving.angular, normal);
   }
   const ContactFrame frame = contact_frame(normal);
-  const Lanes* const record = records_.data() + stride_ * at + springs_;
+  const Lanes* const record = list_.records.data() + stride_ * at + springs_;
   const auto vector = [](const Lanes& of) { return Vec3{of[0], of[1], of[2]}; };
   out.contact[to] = {
-      .a = neighbours_[neighbour].a, .b = neighbours_[neighbour].b, .point = point, .normal = normal, .gap = gap};
+      .a = list_.pairs[neighbour].a, .b = list_.pairs[neighbour].b, .point = point, .normal = normal, .gap = gap};
   out.impulse[to] = to_contact(frame, vector(record[0]));
   if (rolls_) out.angular_impulse[to] = to_contact(frame, vector(record[1]));
   out.work[to] = record[-1][3];
-  out.before[to] = to_contact(frame, before_[at]);
+  out.before[to] = to_contact(frame, list_.before[at]);
   out.after[to] = to_contact(frame, after);
 }
 
 std::size_t BallContacts::memory() const {
   const auto bytes = [](const auto&... columns) { return ((columns.capacity() * sizeof(*columns.data())) + ...); };
-  return bytes(pairs_, flat_pairs_, neighbours_, place_, records_, flags_, before_, incoming_);
+  const auto of = [&](const List& list) {
+    return bytes(list.pairs, list.place, list.begin, list.records, list.flags, list.before);
+  };
+  return bytes(pairs_, flat_pairs_, incoming_, given_begin_) + of(list_) + std::max(of(list_), of(old_));
 }
 
 }  // namespace scree::dem

@@ -138,6 +138,13 @@ void Dem::follow_bodies(const BodyView& bodies) {
 
 /// What the bodies of a material ask of a time step.
 struct Dem::Extremes {
+  void add(const Extremes& o) {
+    mass = std::min(mass, o.mass), radius = std::min(radius, o.radius);
+    standing_radius = std::min(standing_radius, o.standing_radius);
+    speed = std::max(speed, o.speed);
+    moves |= o.moves, stands |= o.stands;
+  }
+
   double mass = std::numeric_limits<double>::infinity();             // smallest of those that move [kg]
   double radius = std::numeric_limits<double>::infinity();           // the same [m]
   double standing_radius = std::numeric_limits<double>::infinity();  // of balls that do not move by forces [m]
@@ -145,22 +152,30 @@ struct Dem::Extremes {
   bool moves = false, stands = false;
 };
 
+Dem::Extremes Dem::extremes_of(const BodyView& bodies, BodyIndex body) const {
+  const double ball = slots_.place[slots_.slot_of[body]].radius;
+  Extremes e{.speed = norm(bodies.velocity[body]) + ball * norm(bodies.angular_velocity[body])};
+  if (bodies.motion[body] == Motion::dynamic) {
+    e.moves = true;
+    e.mass = bodies.mass[body], e.radius = bodies.radius[body];
+  } else {
+    e.stands = true;
+    if (ball > 0.0) e.standing_radius = ball;
+  }
+  return e;
+}
+
 std::vector<Dem::Extremes> Dem::extremes(const Call& call) const {
   const BodyView& bodies = call.bodies.view;
-  std::vector<Extremes> of(call.services.materials().size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Extremes& e = of[bodies.material[i]];
-    const double ball = slots_.place[slots_.slot_of[i]].radius;
-    e.speed = std::max(e.speed, norm(bodies.velocity[i]) + ball * norm(bodies.angular_velocity[i]));
-    if (bodies.motion[i] == Motion::dynamic) {
-      e.moves = true;
-      e.mass = std::min(e.mass, bodies.mass[i]);
-      e.radius = std::min(e.radius, bodies.radius[i]);
-    } else {
-      e.stands = true;
-      if (ball > 0.0) e.standing_radius = std::min(e.standing_radius, ball);
-    }
-  }
+  const std::size_t materials = call.services.materials().size();
+  std::vector<Extremes> parts(materials * Executor::chunk_count(bodies.size(), kGrain));
+  call.services.executor().for_chunks(bodies.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    Extremes* const of = parts.data() + first / kGrain * materials;
+    for (std::size_t i = first; i < last; ++i)
+      of[bodies.material[i]].add(extremes_of(bodies, static_cast<BodyIndex>(i)));
+  });
+  std::vector<Extremes> of(materials);
+  for (std::size_t k = 0; k < parts.size(); ++k) of[k % materials].add(parts[k]);
   for (std::size_t k = 0; k < slots_.turning.size(); ++k) {
     const BodyIndex i = slots_.body[slots_.turning[k].slot];
     Extremes& e = of[bodies.material[i]];
@@ -229,9 +244,10 @@ void Dem::find_neighbours(const Call& call) {
   reach_ = call.law.reach(most);  // against a wall the effective radius is a body's own
   const NeighbourView found = call.services.neighbours(bodies, skin_ + reach_);
   listed_.assign(found.others.begin(), found.others.end());
-  balls_.set_neighbours(slots_, found.balls);
+  balls_.set_neighbours(slots_, found.balls, call.services.executor());
   list_is_good_ = true;
-  used_ = 0.0;
+  if (getenv("CNT")) fprintf(stderr, "LIST\n");
+  drift_.begin(slots_, call.services.executor());
 }
 
 void Dem::ask_fields(const Call& call, double time) {
@@ -274,8 +290,7 @@ dem::ContactTally Dem::ask_contacts(const Call& call, dem::Stage stage) {
 
 /// Two bodies that went half a skin each may meet.
 void Dem::watch_drift(const Call& call, double way) {
-  used_ += way;
-  if (2.0 * used_ <= skin_) return;  // a NaN is no reason to rest
+  if (!drift_.exceeds(0.5 * skin_, way, slots_, call.services.executor())) return;
   slots_.store_poses(call.bodies, {});
   find_neighbours(call);
 }

@@ -11,6 +11,7 @@
 
 #include "ball_contacts.hpp"
 #include "contact_records.hpp"
+#include "drift.hpp"
 #include "evaluation.hpp"
 #include "joints.hpp"
 #include "scree/config/options.hpp"
@@ -59,6 +60,7 @@ class Dem final : public TimeStepper {
   void choose_sub_step(const Call& call);
   struct Extremes;
 
+  [[nodiscard]] Extremes extremes_of(const BodyView& bodies, BodyIndex body) const;
   [[nodiscard]] std::vector<Extremes> extremes(const Call& call) const;
   [[nodiscard]] double stable_step(const Call& call) const;
   void refuse_moving_surfaces_of_balls(const BodyView& bodies) const;
@@ -80,6 +82,7 @@ class Dem final : public TimeStepper {
   dem::BallContacts balls_;
   dem::ShapeContacts shapes_;
   dem::Joints joints_;
+  dem::Drift drift_;
   mutable dem::ContactRecords records_, ball_records_;  ///< of the last step, once contacts() was called
   mutable bool report_is_due_ = false;
   dem::ContactRecords shape_records_;
@@ -93,7 +96,6 @@ class Dem final : public TimeStepper {
   double skin_ = 0.0;      ///< [m]
   double reach_ = 0.0;     ///< of the law, for the largest bodies [m]
   double unstored_ = 0.0;  ///< time since bodies were last written back [s]
-  double used_ = 0.0;      ///< way that a body may have gone since the list was made [m]
   double h_ = 0.0;         ///< sub-step [s]
   double last_h_ = 0.0;    ///< of the last outer step [s]
   std::size_t sub_steps_ = 0;

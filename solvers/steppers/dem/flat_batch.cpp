@@ -19,7 +19,7 @@ void BallContacts::look_at_flats(const Slots& slots, double reach, std::size_t f
     w.apart[hits] = Lanes{ball.position.x, ball.position.y, ball.position.z, overlap};
     w.hit[hits] = w.gone[parted] = static_cast<std::uint32_t>(k);
     hits += touch;
-    parted += (1 - touch) & (flags_[w.first + k] & kTouching);
+    parted += (1 - touch) & (list_.flags[w.first + k] & kTouching);
   }
   w.batch.count = hits;
   w.parted = parted;
