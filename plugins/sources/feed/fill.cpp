@@ -9,6 +9,13 @@
 #include "scree/state/state_io.hpp"
 
 namespace scree {
+namespace {
+
+// Share of the largest radius by which a particle of mean size is to be moved about. Exact rows would stay rows: nothing ever
+// moves soft grains out of a plane that gravity and all motion lie in.
+constexpr double kPlay = 0.08;
+
+}  // namespace
 
 std::vector<Parameter> Fill::parameters() {
   std::vector<Parameter> all{
@@ -36,18 +43,28 @@ void Fill::setup(SceneServices& services) {
   shapes_ = &services.shapes();
   particles_.emplace(services.random_stream("particles"));
   places_.emplace(services.random_stream("places"));
-  // Drawn here for the largest only, and again, the same ones, when they are born: no list of particles is kept.
-  for (std::int64_t i = 0; i < count_; ++i) radius_ = std::max(radius_, mixture_->draw(*particles_).bounding_radius);
+  // Drawn here for their radii only, and again, the same ones, when they are born: no list of particles is kept.
+  double sum = 0.0;
+  for (std::int64_t i = 0; i < count_; ++i) {
+    const double radius = mixture_->draw(*particles_).bounding_radius;
+    radius_ = std::max(radius_, radius);
+    sum += radius;
+  }
   particles_->set_counter(0);
-  // A lattice on which two of the largest particles just miss each other; smaller ones are moved about in their cell.
-  const double cell = 2.0 * radius_ * (1.0 + 1e-9);
+  mean_radius_ = sum / static_cast<double>(count_);
+  lay(0.0);
+  check_room(cell_count());
+}
+
+void Fill::lay(double loose) {
+  reach_ = radius_ * (1.0 + loose);
+  const double cell = 2.0 * reach_ * (1.0 + 1e-9);
   const Vec3 room = upper_ - lower_;
   for (int axis = 0; axis < 3; ++axis) {
     const double fits = std::floor(room[axis] / cell);
     cells_[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::min(fits, 1e6));
     pitch_[axis] = axis == up_ ? cell : room[axis] / std::max(1.0, fits);
   }
-  check_room(cell_count());
 }
 
 std::int64_t Fill::cell_count() const { return cells_[0] * cells_[1] * cells_[2]; }
@@ -109,15 +126,31 @@ std::vector<std::int64_t> Fill::free_cells(const BodyView& bodies) const {
   return free;
 }
 
+// Where sizes differ, the smaller particles have room to be moved about in cells for the largest; where they hardly differ, the
+// cells are made wider, as far as the box has room.
+std::vector<std::int64_t> Fill::places(const BodyView& bodies) {
+  constexpr int kTries = 8;
+  const double loosest = std::max(0.0, kPlay - (1.0 - mean_radius_ / radius_));
+  for (int share = kTries; share > 0; --share) {
+    lay(loosest * share / kTries);
+    if (cell_count() < count_) continue;
+    std::vector<std::int64_t> cells = free_cells(bodies);
+    if (static_cast<std::int64_t>(cells.size()) == count_) return cells;
+  }
+  lay(0.0);
+  std::vector<std::int64_t> cells = free_cells(bodies);
+  check_room(static_cast<std::int64_t>(cells.size()));
+  return cells;
+}
+
 void Fill::emit(const BodyView& bodies, double, double, std::vector<NewBody>& out) {
   if (done_) return;
   done_ = true;
-  const std::vector<std::int64_t> cells = free_cells(bodies);
-  check_room(static_cast<std::int64_t>(cells.size()));
+  const std::vector<std::int64_t> cells = places(bodies);
   out.reserve(out.size() + cells.size());
   for (const std::int64_t cell : cells) {
     Particle particle = mixture_->draw(*particles_);
-    const double play = radius_ - particle.bounding_radius;
+    const double play = reach_ - particle.bounding_radius;
     Vec3 at = middle(cell);
     for (int axis = 0; axis < 3; ++axis) at[axis] += places_->uniform(-play, play);
     particle.body.pose.position = at;

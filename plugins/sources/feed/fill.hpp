@@ -15,7 +15,8 @@ namespace scree {
 class ShapeSet;
 
 /// Places a number of particles on a jittered lattice, from the lower corner of a box upwards, at the first step. Cells
-/// that hold a body already are passed over.
+/// that hold a body already are passed over. Each particle is moved about in its cell, by what it is smaller: cells are
+/// wider than the largest particle where sizes hardly differ, as far as the box has room.
 class Fill final : public Source {
  public:
   explicit Fill(const Options& options);
@@ -28,10 +29,14 @@ class Fill final : public Source {
   void load(const StateReader& in) override;
 
  private:
+  /// A lattice with cells wider than the largest particle by the share `loose`.
+  void lay(double loose);
   [[nodiscard]] std::int64_t cell_count() const;
   /// Cells that no bounding sphere of a dynamic body reaches into.
   void take(const Aabb& box, std::unordered_set<std::int64_t>& taken) const;
   [[nodiscard]] std::vector<std::int64_t> free_cells(const BodyView& bodies) const;
+  /// Lays the loosest lattice that has room, and returns a free cell for each particle. @throws Error as check_room().
+  [[nodiscard]] std::vector<std::int64_t> places(const BodyView& bodies);
   [[nodiscard]] Vec3 middle(std::int64_t cell) const;
   /// @throws Error (usage) when fewer cells are free than particles wanted.
   void check_room(std::int64_t cells) const;
@@ -41,8 +46,10 @@ class Fill final : public Source {
   std::int64_t count_;
   int up_;                               // axis along which layers follow each other
   double radius_ = 0.0;                  // of the largest bounding sphere [m]
+  double mean_radius_ = 0.0;             // of all bounding spheres [m]
   std::array<std::int64_t, 3> cells_{};  // of the lattice along x, y, z
-  Vec3 pitch_;                           // of the lattice, no less than 2 radius_ [m]
+  double reach_ = 0.0;                   // no particle reaches further from the middle of its cell [m]
+  Vec3 pitch_;                           // of the lattice, more than 2 reach_ [m]
   std::optional<Mixture> mixture_;
   ShapeSet* shapes_ = nullptr;
   std::optional<RandomStream> particles_;  // which particles they are

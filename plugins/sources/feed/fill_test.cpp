@@ -1,5 +1,8 @@
 #include "fill.hpp"
 
+#include <cmath>
+#include <set>
+
 #include "scree/base/error.hpp"
 #include "scree/state/memory_state.hpp"
 #include "testing_feed.hpp"
@@ -30,6 +33,56 @@ TEST(fill, places_all_particles_in_the_box_and_apart) {
     }
   }
   EXPECT_TRUE(scene.emit(*fill, 1).empty());  // once
+}
+
+// The places of 200 equal spheres of 8 mm, filled along `up`, less the corners of the smallest cells that hold them [m].
+std::vector<Vec3> moved(const std::string& up, const std::string& upper, double& gap) {
+  FeedScene scene;
+  const auto fill =
+      scene.make<Fill>("count = 200\nlower = [0, 0, 0]\nupper = " + upper + "\nup = '" + up +
+                       "'\nfamilies = [{name = 'a', material = 'plastic', size = 8e-3, shape = 'sphere'}]\n");
+  std::vector<Vec3> places;
+  for (const NewBody& body : scene.emit(*fill, 0)) places.push_back(body.pose.position);
+  gap = testing_feed::smallest_gap(scene, 200);
+  return places;
+}
+
+// How many different coordinates there are along an axis, to a ten-thousandth of a diameter.
+std::size_t planes(const std::vector<Vec3>& places, int axis) {
+  std::set<long> found;
+  for (const Vec3& at : places) found.insert(std::lround(at[axis] / 8e-7));
+  return found.size();
+}
+
+// 200 draws from some 600 places of a ten-thousandth a layer hardly ever coincide in more than half; rows give 8 planes.
+TEST(fill, equal_spheres_lie_in_no_rows_along_any_axis) {
+  for (const char* const up : {"x", "y", "z"}) {
+    double gap = -1.0;
+    const std::vector<Vec3> places = moved(up, "[0.07, 0.07, 0.07]", gap);
+    ASSERT_EQ(places.size(), 200U);
+    EXPECT_GE(gap, 0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GT(planes(places, axis), 100U) << up << axis;
+      for (const Vec3& at : places) {
+        ASSERT_GE(at[axis], 4e-3);
+        ASSERT_LE(at[axis], 0.07 - 4e-3);
+      }
+    }
+  }
+}
+
+TEST(fill, equal_spheres_are_moved_as_far_as_a_tight_box_lets_them) {
+  double gap = -1.0;
+  // 5 x 5 x 8 cells of 8 mm with 2 % to spare across: an eighth of the play is 1 %.
+  const std::vector<Vec3> tight = moved("z", "[0.0408, 0.0408, 0.0656]", gap);
+  ASSERT_EQ(tight.size(), 200U);
+  EXPECT_GE(gap, 0.0);
+  EXPECT_GT(planes(tight, 0), 100U);
+  // Room for 200, exactly.
+  const std::vector<Vec3> full = moved("z", "[0.0401, 0.0401, 0.0641]", gap);
+  ASSERT_EQ(full.size(), 200U);
+  EXPECT_GE(gap, 0.0);
+  EXPECT_EQ(planes(full, 0), 5U);
 }
 
 TEST(fill, rises_along_the_axis_of_the_scene) {
