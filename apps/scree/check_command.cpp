@@ -23,14 +23,16 @@ struct CheckOptions {
 void check(const CheckOptions& options) {
   const SceneDocument scene = SceneDocument::load(scene_file(options.scene), options.overrides);
   const PluginHost host = find_scene_plugins(scene, options.plugin_dirs);
-  const Simulation simulation{scene, host, {}};
+  Simulation simulation{scene, host, {}};
   for (const std::string& sentence : simulation.warnings()) warn(sentence);
   if (options.resolved) {
     say("{}\n", simulation.resolved_scene());
     return;
   }
+  const std::size_t at_the_start = simulation.bodies().size();
+  simulation.try_first_step();
   say("{}: can run, {:.6g} s in steps of {:.6g} s; {} bodies at the start\n", options.scene.string(),
-      simulation.end_time(), simulation.time_step(), simulation.bodies().size());
+      simulation.end_time(), simulation.time_step(), at_the_start);
   for (const PartInfo& part : simulation.parts()) say("  {}\n", part.label_with_library());
   for (const std::string& line : simulation.log()) say("  {}\n", line);
 }

@@ -48,6 +48,7 @@ void Simulation::State::feed_sources() {
 
 StepSummary Simulation::State::advance() {
   const PhaseTimer::Scope scope{timer, Phase::stepper};
+  services->serve(parts.stepper.info);  // for its lines in the log
   return guarded(parts.stepper.info, ErrorKind::diverged,
                  [&] { return parts.stepper.plugin->step(*host, bodies.state(), time(), time_step); });
 }
@@ -186,6 +187,15 @@ StepRecord Simulation::step() {
   state_->feed_sources();
   const StepSummary summary = state_->take_step();
   return state_->record(summary);
+}
+
+void Simulation::try_first_step() {
+  State& s = *state_;
+  // Steppers of hard contacts refuse nothing, and may take long.
+  if (!s.parts.stepper.plugin->needs_contact_law()) return;
+  s.feed_sources();
+  s.motions.begin_step(s.bodies, s.time_step, s.time_step);
+  (void)s.advance();
 }
 
 void Simulation::finish() {

@@ -51,6 +51,10 @@ class Simulation {
 
   /// Advances by one outer step. @throws Error (diverged) naming the cause; save() then writes the state before the step.
   StepRecord step();
+  /// Finds what a run would refuse in its first step and setup cannot know: where contacts are soft, sources add the bodies of
+  /// that step and the time stepper takes it; fields, observers and sinks do not hear of it. Called once, in place of
+  /// step(). @throws Error as step() does.
+  void try_first_step();
   /// Ends the run: observers write what is left. Called once.
   void finish();
 

@@ -224,11 +224,10 @@ void Dem::choose_sub_step(const Call& call) {
   if (told_ || !std::isfinite(stable)) return;
   told_ = true;
   char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "time_stepper:dem: %zu sub-steps of %.4g s in a step; the stiffest contact allows %.4g s; skin %.4g m, %zu "
-      "pairs of balls in %.4g MB",
-      sub_steps_, h_, stable, skin_, balls_.pairs(), 1e-6 * static_cast<double>(balls_.memory()));
+  std::snprintf(text, sizeof text,
+                "%zu sub-steps of %.4g s in a step; the stiffest contact allows %.4g s; skin %.4g m, %zu "
+                "pairs of balls in %.4g MB",
+                sub_steps_, h_, stable, skin_, balls_.pairs(), 1e-6 * static_cast<double>(balls_.memory()));
   scene_->log(text);
 }
 
@@ -305,11 +304,10 @@ void Dem::keep_results(const Call& call, const dem::ContactTally& tally, const d
   if (mean_overlap(tally) > kDeep && !warned_) {
     warned_ = true;
     char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "warning: time_stepper:dem: contacts overlap by %.0f %% of the smaller radius on average at t = %.4g s; take a "
-        "stiffer contact law",
-        100.0 * mean_overlap(tally), call.time + call.dt);
+    std::snprintf(text, sizeof text,
+                  "warning: contacts overlap by %.0f %% of the smaller radius on average at t = %.4g s; take a "
+                  "stiffer contact law",
+                  100.0 * mean_overlap(tally), call.time + call.dt);
     scene_->log(text);
   }
   summary.solve.status = SolveStatus::converged;
