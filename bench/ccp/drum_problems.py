@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Contact problems of a rotating drum that holds the grains of a bed.
 
-    bench/ccp/drum_problems.py PROGRAM FOLDER BED 78,79,80 [--slower 10]
+    bench/ccp/drum_problems.py PROGRAM FOLDER BED 78,79,80 [--slower 10] [--stiffness 2000]
 
 Fills the drum, turns it for a while, and records the problems of these steps of 1 ms into FOLDER/recorded, each with the impulses of the
 step before it; or, with --slower, into FOLDER/slower, after the drum has been slowed to a part of its speed: let it calm down for
-some hundred steps. Standard library only.
+some hundred steps. With --stiffness contacts are springs instead of rigid. Standard library only.
 """
 
 import argparse
@@ -40,16 +40,19 @@ def moving_drum(program, folder, bed, threads):
     return latest
 
 
-def record(program, folder, bed, steps, threads, slower=1.0):
-    """Problems of these steps of 1 ms, each with the impulses of the step before it."""
+def record(program, folder, bed, steps, threads, slower=1.0, stiffness=None):
+    """Problems of these steps of 1 ms, each with the impulses of the step before it; stiffness [N/m], none for rigid contacts."""
     name = "recorded" if slower == 1.0 else "slower"
+    soft = []
+    if stiffness:  # each side of a contact brings half of its compliance
+        name, soft = f"{name}_{stiffness:g}", ["--set", f"material.grain.compliance={0.5 / stiffness!r}"]
     files = [folder / name / f"ccp_{step}.h5" for step in steps]
     if not all(file.exists() for file in files):
         drum = moving_drum(program, folder, bed, threads)
         times = ",".join(f"{1e-3 * step:.3f}" for step in steps)
         scene = Scree(program, folder, "drum", drum, threads, FINE)
         scene.drum.speed /= slower
-        scene.run(name, 1e-3 * steps[-1], ["--record-ccp", "t=" + times])
+        scene.run(name, 1e-3 * steps[-1], ["--record-ccp", "t=" + times, *soft])
     return files
 
 
@@ -60,9 +63,10 @@ def main():
     parser.add_argument("bed", type=pathlib.Path, help="a bed file, see scenes/bed.toml")
     parser.add_argument("steps", type=lambda text: [int(step) for step in text.split(",")])
     parser.add_argument("--slower", type=float, default=1.0, help="divides the speed of the drum")
+    parser.add_argument("--stiffness", type=float, help="of contacts [N/m]; without it they are rigid")
     parser.add_argument("--threads", type=int, default=2)
     wanted = parser.parse_args()
-    for file in record(wanted.program, wanted.folder, wanted.bed.resolve(), wanted.steps, wanted.threads, wanted.slower):
+    for file in record(wanted.program, wanted.folder, wanted.bed.resolve(), wanted.steps, wanted.threads, wanted.slower, wanted.stiffness):
         print(file)
 
 
