@@ -11,8 +11,6 @@
 namespace scree::bench {
 namespace {
 
-constexpr double kExact = 1e-7;  // [m/s]
-constexpr int kMostSweeps = 100000;
 constexpr double kSameNormal = 0.9;  // cosine [1]
 
 /// The inverse masses of a contact's bodies, the smaller one first.

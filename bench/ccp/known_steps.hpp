@@ -9,6 +9,9 @@
 
 namespace scree::bench {
 
+constexpr double kExact = 1e-7;  ///< residual of what counts as the solution [m/s]
+constexpr int kMostSweeps = 100000;
+
 /// A problem without blocks, as `scree run --record-ccp` wrote it.
 struct KnownStep {
   CcpRecord record;

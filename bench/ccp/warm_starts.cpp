@@ -16,12 +16,15 @@
 //     three_quarters, half, quarter, tenth   the solution and so much of what `last` is away from it: how good a guess has to be
 //     known         the solution, but nothing at contacts that carried nothing in the step before: no memory knows more
 //
-// First it says what a step changes: contacts that carry, that are new among them, that carried before; the distance of guesses
-// from the solution over the solution's size; that of the best combination of the last three steps, by hindsight; and the same in
+// First it says what a step changes: contacts that carry, that are new among them, that carried before; how many of the new ones the
+// step before knew, and how far open it left them (for rigid contacts, which end a step u_n h apart); how much of the change of the
+// impulses (their squares) is in contacts that carry before and after; how far from the solution another start ends (is it the only
+// one?); the distance of guesses from the solution over the solution's size; that of the best combination of the last three steps, by hindsight; and the same in
 // the energy that solvers lower, where zero has 1. Then the iterations to 1e-2, 1e-3 and 1e-4 m/s, means over the arguments; a
 // minus: not within N (20000).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -75,6 +78,7 @@ class Moment {
     turned_ = carry(second.record, second.solution, now_.record, Carried::with_contact);
     before_ = brought(first.solution);
     long_before_ = brought(first.record.guess);
+    keep_gaps(second);
   }
 
   [[nodiscard]] CcpProblem problem() const { return now_.record.problem(); }
@@ -99,6 +103,28 @@ class Moment {
     throw std::runtime_error{"no start has the name " + name};
   }
 
+  /// Of the contacts that carry now and did not before, those that the step before knew: how far open it left them [m], sorted.
+  [[nodiscard]] std::vector<double> opened() const {
+    std::vector<double> out;
+    for (std::size_t k = 0; k < exact_.size(); k += 3) {
+      if (exact_[k] <= kCarries && solution()[k] > kCarries && listed_[k] > 0.5) out.push_back(gap_[k]);
+    }
+    std::ranges::sort(out);
+    return out;
+  }
+
+  /// Share of the squared change of the impulses that is in contacts that carry before and now.
+  [[nodiscard]] double change_of_those_that_stay() const {
+    double all = 0.0, stay = 0.0;
+    for (std::size_t k = 0; k < exact_.size(); ++k) {
+      const std::size_t normal = k - k % 3;
+      const double change = (solution()[k] - exact_[k]) * (solution()[k] - exact_[k]);
+      all += change;
+      if (exact_[normal] > kCarries && solution()[normal] > kCarries) stay += change;
+    }
+    return stay / all;
+  }
+
   /// Contacts that carry now; those among them that did not before; those that did and do not now.
   [[nodiscard]] std::array<std::size_t, 3> carrying() const {
     std::array<std::size_t, 3> out{};
@@ -112,6 +138,22 @@ class Moment {
   }
 
  private:
+  // A rigid contact that opens ends the step with a gap of h u_n, since its r has the gap it began with over h.
+  void keep_gaps(const KnownStep& before) {
+    const CcpProblem problem = before.record.problem();
+    DelassusOperator delassus;
+    delassus.bind(problem, nullptr);
+    Impulses gap(problem.rows()), known(problem.rows(), 0.0);
+    delassus.apply(before.solution, gap);
+    const double h = now_.record.origin.time - before.record.origin.time;
+    for (std::size_t k = 0; k < gap.size(); k += 3) {
+      gap[k] = h * (gap[k] + problem.r[k]);
+      gap[k + 1] = gap[k + 2] = 0.0;
+      known[k] = 1.0;
+    }
+    gap_ = carry(before.record, gap, now_.record, Carried::with_contact);
+    listed_ = carry(before.record, known, now_.record, Carried::with_contact);
+  }
   static Impulses only_normal(Impulses gamma) {
     for (std::size_t k = 0; k < gamma.size(); ++k) {
       if (k % 3 != 0) gamma[k] = 0.0;
@@ -128,6 +170,7 @@ class Moment {
 
   KnownStep now_;
   Impulses exact_, turned_, before_, long_before_;
+  Impulses gap_, listed_;  // in rows of normals: gaps at the end of the step before [m]; 1 for contacts that it knew
 };
 
 /// Of the combination of `parts` that is nearest to `goal`: its distance over the size of the goal.
@@ -150,6 +193,28 @@ double best_distance(const std::array<const Impulses*, 3>& parts, const Impulses
   return std::sqrt(product(rest, rest) / product(goal, goal));
 }
 
+double distance(const Impulses& x, const Impulses& goal) {
+  const Impulses away = sum(1.0, x, -1.0, goal);
+  return std::sqrt(product(away, away) / product(goal, goal));
+}
+
+void tell_new_contacts(const Moment& moment) {
+  const std::vector<double> opened = moment.opened();
+  Impulses other(moment.solution().size(), 0.0);
+  SolveContext context;
+  context.tolerance = kExact;
+  context.max_iterations = kMostSweeps;
+  make_solver("asgs")->solve(moment.problem(), context, other);
+  fmt::print("  {} of the new ones were known, left open by", opened.size());
+  for (const double part : {0.1, 0.5, 0.9}) {
+    const auto at = static_cast<std::size_t>(part * static_cast<double>(opened.size()));
+    if (!opened.empty()) fmt::print(" {:.2g}", 1e6 * opened[at]);
+  }
+  fmt::print(
+      " um (10, 50, 90 %); {:.2f} of the change is in contacts that stay; from zero to the solution within {:.1e}\n",
+      moment.change_of_those_that_stay(), distance(other, moment.solution()));
+}
+
 void tell_changes(const Moment& moment, const std::string& files) {
   const CcpProblem problem = moment.problem();
   DelassusOperator delassus;
@@ -163,13 +228,13 @@ void tell_changes(const Moment& moment, const std::string& files) {
   const auto [carrying, came, went] = moment.carrying();
   fmt::print("{}: {} contacts, {} carry, {} of them new, {} do no more\n", files, problem.contacts.size(), carrying,
              came, went);
+  tell_new_contacts(moment);
   fmt::print("  distance (in energy):");
   for (const char* name : {"last", "turned", "mean", "extrapolated", "normal", "known"}) {
     Impulses guess = moment.start(name);
     project_guess(problem, guess);
-    const Impulses away = sum(1.0, guess, -1.0, goal);
-    fmt::print(" {} {:.3f} ({:.2f})", name, std::sqrt(product(away, away) / product(goal, goal)),
-               std::sqrt(in_energy(away) / in_energy(goal)));
+    fmt::print(" {} {:.3f} ({:.2f})", name, distance(guess, goal),
+               std::sqrt(in_energy(sum(1.0, guess, -1.0, goal)) / in_energy(goal)));
   }
   fmt::print("; best of three steps {:.3f}\n", best_distance(moment.three(), goal));
   std::fflush(stdout);
