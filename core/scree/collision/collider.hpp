@@ -58,6 +58,15 @@ struct BodyPair {
   bool operator==(const BodyPair&) const = default;
 };
 
+/// What a stepper expects of bodies as long as it uses a list of neighbours: at any time t after the list was made no point of a
+/// body is farther than half of the skin from where it would be if the body had moved by velocity times min(t, horizon),
+/// without turning.
+struct ExpectedMotion {
+  std::span<const Vec3> velocity;  ///< by body [m/s], world
+  double horizon = 0.0;            ///< [s]
+  double skin = 0.0;               ///< [m]
+};
+
 /// Who may touch whom before anything has moved far; see StepServices::neighbours().
 struct NeighbourView {
   std::span<const BodyPair> balls;  ///< is_ball() with another or with what is_flat(); sorted

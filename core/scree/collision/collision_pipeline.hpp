@@ -58,8 +58,8 @@ class CollisionPipeline {
                                       std::span<const Vec3> velocity, std::span<const Vec3> angular_velocity,
                                       double dt);
 
-  /// Pairs that come within `skin` [m] of each other as the bodies stand. Valid until the next call of find() or this.
-  NeighbourView find_neighbours(const BodyView& bodies, double skin);
+  /// Pairs that can touch as long as bodies move as expected. Valid until the next call of find() or this.
+  NeighbourView find_neighbours(const BodyView& bodies, const ExpectedMotion& expected);
   /// Contacts with a gap below `reach` [m] of those neighbours that are not simple pairs, at the present poses of the same bodies;
   /// sorted as those of find(), and valid as long.
   std::span<const Contact> collide_neighbours(const BodyView& bodies, double reach);
@@ -133,6 +133,7 @@ class CollisionPipeline {
   };
   std::vector<NeighbourChunk> chunk_neighbours_;
   UninitialisedVector<BodyPair> ball_neighbours_;
+  std::vector<Vec3> no_spin_;  // by body
   std::vector<ColliderPair> other_neighbours_;
   std::vector<ColliderIndex> followed_;     // the colliders of those
   std::vector<BodyIndex> followed_bodies_;  // and their bodies

@@ -249,7 +249,7 @@ TEST(CollisionPipeline, result_depends_on_the_bodies_only) {
   }
 }
 
-// Law: neighbours are what lies within the skin, whether or not boxes are looked at; velocities do not matter.
+// Law: of bodies that are expected to stay, neighbours are what lies within the skin, whether or not boxes are looked at.
 TEST(CollisionPipeline, neighbours_are_within_the_skin) {
   for (const Motion motion : {Motion::fixed, Motion::kinematic}) {
     Scene scene;
@@ -262,7 +262,8 @@ TEST(CollisionPipeline, neighbours_are_within_the_skin) {
     for (BroadPhase* broad : std::initializer_list<BroadPhase*>{&scene.broad, &balls_alone}) {
       EchoPhase narrow{kAllKinds};
       CollisionPipeline pipeline{scene.shapes, *broad, {&narrow}, scene.executor};
-      const NeighbourView found = pipeline.find_neighbours(scene.bodies.view(), 0.1);
+      const std::vector<Vec3> still(scene.bodies.size());
+      const NeighbourView found = pipeline.find_neighbours(scene.bodies.view(), {still, 0.0, 0.1});
       std::vector<BodyPair> expected{{1, 2}, {1, 4}};
       // The plane and three balls; one is 2 cm too high.
       if (motion == Motion::fixed) expected = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}};
@@ -270,6 +271,49 @@ TEST(CollisionPipeline, neighbours_are_within_the_skin) {
       EXPECT_EQ(found.others.size(), motion == Motion::fixed ? 0u : 4u) << "a plane at rest is simple";
     }
   }
+}
+
+// Law: who is no neighbour does not come within the skin on the way that is expected, at whatever time. Most who do not come
+// near on that way are no neighbours.
+TEST(CollisionPipeline, neighbours_are_those_who_can_meet_on_the_way_that_is_expected) {
+  constexpr double kHorizon = 0.5, kSkin = 0.1;
+  Scene scene;
+  RandomNumbers random{7};
+  std::vector<Vec3> velocity;
+  for (int k = 0; k < 100; ++k) {
+    scene.add(ball(random.uniform(0.3, 1.0)), random.in_cube(6.0));
+    velocity.push_back(random.in_cube(4.0));
+  }
+  scene.add(shape_data(plane_data()), {0, 0, -6}, {}, {}, Motion::fixed);
+  velocity.push_back({});
+  EchoPhase narrow{kAllKinds};
+  CollisionPipeline pipeline{scene.shapes, scene.broad, {&narrow}, scene.executor};
+  const BodyView bodies = scene.bodies.view();
+  const NeighbourView found = pipeline.find_neighbours(bodies, {velocity, kHorizon, kSkin});
+  const std::set<std::pair<BodyIndex, BodyIndex>> listed = [&] {
+    std::set<std::pair<BodyIndex, BodyIndex>> pairs;
+    for (const BodyPair& pair : found.balls) pairs.insert({pair.a, pair.b});
+    return pairs;
+  }();
+  EXPECT_EQ(listed.size(), found.balls.size());
+  std::size_t meeting = 0;
+  for (BodyIndex a = 0; a < bodies.size(); ++a) {
+    for (BodyIndex b = a + 1; b < bodies.size(); ++b) {
+      double least = std::numeric_limits<double>::infinity();
+      for (int s = 0; s <= 50; ++s) {
+        const double t = kHorizon * s / 50.0;
+        const Vec3 apart = bodies.position[b] - bodies.position[a] + t * (velocity[b] - velocity[a]);
+        const bool plane = b + 1 == bodies.size();
+        least = std::min(least, (plane ? -apart.z : norm(apart) - bodies.radius[b]) - bodies.radius[a]);
+      }
+      meeting += least < kSkin ? 1 : 0;
+      if (least < kSkin) {
+        EXPECT_TRUE(listed.contains({a, b})) << a << " and " << b << " come within " << least;
+      }
+    }
+  }
+  EXPECT_GT(meeting, 100u);
+  EXPECT_LT(listed.size(), 3 * meeting);
 }
 
 // Law: bodies added and removed between steps are seen at once, and new shapes are bound before they are used.

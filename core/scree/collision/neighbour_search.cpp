@@ -14,11 +14,11 @@ constexpr std::size_t kPairsPerChunk = 256;
 
 }  // namespace
 
-NeighbourView CollisionPipeline::find_neighbours(const BodyView& bodies, double skin) {
-  large_ = false;  // what is found stays in use
-  // Bodies stand still: their velocities do not matter, and the slack is for contacts that flicker.
-  rule_ = {.skin = skin};
-  place_colliders(bodies, bodies.velocity, bodies.angular_velocity);
+NeighbourView CollisionPipeline::find_neighbours(const BodyView& bodies, const ExpectedMotion& expected) {
+  large_ = false;                                              // what is found stays in use
+  rule_ = {.dt = expected.horizon, .skin = expected.skin};  // slack is for contacts that flicker
+  no_spin_.assign(bodies.size(), Vec3{});
+  place_colliders(bodies, expected.velocity, no_spin_);
   counts_ = {colliders_.size(), 0, 0, 0};
   find_candidates();
   plain_ = all_plain();

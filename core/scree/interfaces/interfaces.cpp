@@ -56,7 +56,7 @@ std::vector<ReportTable> Source::report() const { return {}; }
 void Source::setup(SceneServices&) {}
 
 StepServices::~StepServices() = default;
-NeighbourView StepServices::neighbours(const BodyView&, double) {
+NeighbourView StepServices::neighbours(const BodyView&, const ExpectedMotion&) {
   throw std::logic_error{"this host finds no neighbours"};
 }
 std::span<const Contact> StepServices::neighbour_contacts(const BodyView&, double) {

@@ -32,9 +32,8 @@ class StepServices {
   /// next call.
   virtual std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
                                             std::span<const Vec3> free_angular_velocity, double dt) = 0;
-  /// The pairs that come within `skin` [m] of each other at the state `bodies`. As long as no two surfaces approach by more
-  /// than that, no other pair touches. Valid until the next call.
-  virtual NeighbourView neighbours(const BodyView& bodies, double skin);
+  /// The pairs that can touch as long as all bodies move as `expected` says, and some that cannot. Valid until the next call.
+  virtual NeighbourView neighbours(const BodyView& bodies, const ExpectedMotion& expected);
   /// Contacts with a gap below `reach` [m] at the state `bodies`, of those pairs of neighbours() that are not in
   /// its `balls`; sorted as contacts() are. Bodies are those of that call, moved. Valid until the next call.
   virtual std::span<const Contact> neighbour_contacts(const BodyView& bodies, double reach);

@@ -28,9 +28,9 @@ std::span<const Contact> StepHost::wall_contacts(const BodyView& bodies, std::sp
   return pipeline_.find_walls(bodies, few, velocity, angular_velocity, dt);
 }
 
-NeighbourView StepHost::neighbours(const BodyView& bodies, double skin) {
+NeighbourView StepHost::neighbours(const BodyView& bodies, const ExpectedMotion& expected) {
   const PhaseTimer::Scope scope{timer_, Phase::collision};
-  const NeighbourView found = pipeline_.find_neighbours(bodies, skin);
+  const NeighbourView found = pipeline_.find_neighbours(bodies, expected);
   if (births_ != nullptr && births_->first_unseen(bodies.size()) < bodies.size()) check_births(bodies, found);
   return found;
 }

@@ -39,7 +39,7 @@ class StepHost final : public StepServices {
   void forces(const BodyView& bodies, double time, WrenchView out) override;
   std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
                                     std::span<const Vec3> free_angular_velocity, double dt) override;
-  NeighbourView neighbours(const BodyView& bodies, double skin) override;
+  NeighbourView neighbours(const BodyView& bodies, const ExpectedMotion& expected) override;
   std::span<const Contact> neighbour_contacts(const BodyView& bodies, double reach) override;
   [[nodiscard]] bool forces_are_steady() const override;
   [[nodiscard]] const ContactLaw* contact_law() const override {

@@ -101,6 +101,7 @@ void Dem::take_over(const Call& call) {
   if (!same || slots_.size() != bodies.size()) follow_bodies(bodies);
   if (!same || slots_.slot_of.size() != bodies.size() || steps_since_sort_ >= kStepsBetweenSorts) {
     slots_.sort(bodies);
+    drift_.forget();
     steps_since_sort_ = 0;
     list_is_good_ = false;
   }
@@ -241,12 +242,11 @@ void Dem::find_neighbours(const Call& call) {
   }
   skin_ = options_.skin > 0.0 ? options_.skin : std::isfinite(least) ? kSkin * least : 0.0;
   reach_ = call.law.reach(most);  // against a wall the effective radius is a body's own
-  const NeighbourView found = call.services.neighbours(bodies, skin_ + reach_);
+  drift_.begin(slots_, least, call.services.executor());
+  const NeighbourView found = call.services.neighbours(bodies, drift_.expected(skin_ + reach_));
   listed_.assign(found.others.begin(), found.others.end());
   balls_.set_neighbours(slots_, found.balls, call.services.executor());
   list_is_good_ = true;
-  if (getenv("CNT")) fprintf(stderr, "LIST\n");
-  drift_.begin(slots_, call.services.executor());
 }
 
 void Dem::ask_fields(const Call& call, double time) {
@@ -287,9 +287,9 @@ dem::ContactTally Dem::ask_contacts(const Call& call, dem::Stage stage) {
   return tally;
 }
 
-/// Two bodies that went half a skin each may meet.
+/// Two bodies that are half a skin each from where they are expected may meet.
 void Dem::watch_drift(const Call& call, double way) {
-  if (!drift_.exceeds(0.5 * skin_, way, slots_, call.services.executor())) return;
+  if (!drift_.exceeds(0.5 * skin_, h_, way, slots_, call.services.executor())) return;
   slots_.store_poses(call.bodies, {});
   find_neighbours(call);
 }

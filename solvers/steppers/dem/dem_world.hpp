@@ -69,11 +69,14 @@ class DemHost final : public StepServices {
     return {};
   }
   SolveSummary solve_ccp(const CcpProblem&, std::span<double>) override { return {}; }
-  NeighbourView neighbours(const BodyView& view, double skin) override {
+  NeighbourView neighbours(const BodyView& view, const ExpectedMotion& expected) override {
     ++searches;
+    const auto reach = [&](BodyIndex a, BodyIndex b) {
+      return expected.skin + expected.horizon * norm(expected.velocity[b] - expected.velocity[a]);
+    };
     balls_.clear(), others_.clear();
     for (BodyIndex a = 1; a < view.size(); ++a) {
-      if (view.position[a].z - view.radius[a] - view.position[0].z >= skin) continue;
+      if (view.position[a].z - view.radius[a] - view.position[0].z >= reach(0, a)) continue;
       if (simple_floor && view.motion[0] == Motion::fixed) {
         balls_.push_back({0, a});
       } else {
@@ -82,7 +85,7 @@ class DemHost final : public StepServices {
     }
     for (BodyIndex a = 1; a < view.size(); ++a) {
       for (BodyIndex b = a + 1; b < view.size(); ++b) {
-        if (norm(view.position[b] - view.position[a]) < view.radius[a] + view.radius[b] + skin)
+        if (norm(view.position[b] - view.position[a]) < view.radius[a] + view.radius[b] + reach(a, b))
           balls_.push_back({a, b});
       }
     }
