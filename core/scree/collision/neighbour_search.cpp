@@ -15,7 +15,7 @@ constexpr std::size_t kPairsPerChunk = 256;
 }  // namespace
 
 NeighbourView CollisionPipeline::find_neighbours(const BodyView& bodies, const ExpectedMotion& expected) {
-  large_ = false;                                              // what is found stays in use
+  large_ = false;                                           // what is found stays in use
   rule_ = {.dt = expected.horizon, .skin = expected.skin};  // slack is for contacts that flicker
   no_spin_.assign(bodies.size(), Vec3{});
   place_colliders(bodies, expected.velocity, no_spin_);
