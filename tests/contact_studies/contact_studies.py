@@ -3,18 +3,14 @@
 usage: contact_studies.py SCREE
 """
 
-import csv
 import math
-import os
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
-SCREE = os.path.abspath(sys.argv[1])
-G, DENSITY, RADIUS, FRICTION = 9.81, 2500.0, 0.01, 0.4
-BALL = DENSITY * 4 / 3 * math.pi * RADIUS**3  # [kg]
+from whole_runs import BALL, DENSITY, G, RADIUS, SCREE, WholeRuns, body
+
+FRICTION = 0.4
 CUBE = DENSITY * 0.02**3
 
 COMMON = """
@@ -86,42 +82,17 @@ overlap_speed = "5 m/s"
 """
 
 
-def body(name, shape, position, velocity=(0, 0, 0)):
-    return (f'[[body]]\nname = "{name}"\nshape = "{shape}"\nmaterial = "stone"\nmotion = "dynamic"\n'
-            f"position = [{position[0]}, {position[1]}, {position[2]}]\n"
-            f"velocity = [{velocity[0]:.9f}, {velocity[1]:.9f}, {velocity[2]:.9f}]\n")
-
-
-class Studies:
+class Studies(WholeRuns):
     """What holds with every stepper; hard contacts are nearer to the closed forms."""
 
     stepper = DVI
     rolling = ""
     work_tolerance = 1e-10  # some thousand roundings
 
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.temporary.name)
-        self.addCleanup(self.temporary.cleanup)
-
     def write(self, name, bodies, end, step=1, restitution=0.0, interval=10):
         scene = self.folder / name
         scene.write_text(COMMON.format(stepper=self.stepper, end=end, step=step, restitution=restitution, interval=interval) + bodies)
         return scene
-
-    def run_scene(self, scene, results, *arguments):
-        command = [SCREE, "run", str(scene), "-o", str(self.folder / results), "--quiet", *arguments]
-        done = subprocess.run(command, text=True, capture_output=True)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-
-    def table(self, results, name):
-        with open(self.folder / results / name, newline="") as file:
-            rows = list(csv.reader(file))
-        names = [column.split(" [")[0] for column in rows[0]]
-        return [dict(zip(names, row)) for row in rows[1:]]
-
-    def near(self, value, expected, tolerance):
-        self.assertLessEqual(abs(float(value) - expected), tolerance, f"{value} is not {expected}")
 
     def test_a_resting_ball_loads_the_plate_with_its_weight_and_its_moment(self):
         scene = self.write("rest.toml", body("ball", "ball", (0.2, -0.1, RADIUS)), 0.1)
@@ -228,7 +199,6 @@ angular_velocity = ["0 rad/s", "60 rpm", "0 rad/s"]
             whole, second = ((self.folder / run / name).read_bytes() for run in ("whole", "second"))
             self.assertEqual(whole, second, name)
             self.assertGreater(len(whole), 100, name)
-
 
 
 class HardContacts(Studies, unittest.TestCase):

@@ -3,18 +3,11 @@
 usage: flow_studies.py SCREE
 """
 
-import csv
-import math
-import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-SCREE = os.path.abspath(sys.argv[1])
-G, DENSITY, RADIUS = 9.81, 2500.0, 0.01
-BALL = DENSITY * 4 / 3 * math.pi * RADIUS**3  # [kg]
+from whole_runs import BALL, G, RADIUS, WholeRuns, body
+
 FLYING = ["mass_flow.csv", "mass_flow_crossings.csv", "residence_time.csv", "residence_time_stays.csv"]
 BED = ["mixing.csv", "segregation.csv", "segregation_profile.csv", "size_distribution.csv",
        "size_distribution_histogram.csv", "continuum_profile.csv", "continuum_00000120.vti"]
@@ -96,37 +89,12 @@ contact_stress = true
 """
 
 
-def body(name, shape, position, velocity=(0, 0, 0)):
-    return (f'[[body]]\nname = "{name}"\nshape = "{shape}"\nmaterial = "stone"\nmotion = "dynamic"\n'
-            f"position = [{position[0]:.9f}, {position[1]:.9f}, {position[2]:.9f}]\n"
-            f"velocity = [{velocity[0]:.9f}, {velocity[1]:.9f}, {velocity[2]:.9f}]\n")
-
-
-class FlowStudies(unittest.TestCase):
-    def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.temporary.name)
-        self.addCleanup(self.temporary.cleanup)
-
+class FlowStudies(WholeRuns, unittest.TestCase):
     def write(self, name, stepper, bodies, end, gravity=-G, averaged_from=0.0):
         scene = self.folder / f"{name}.toml"
         text = SCENE + OBSERVE_FLIGHT + OBSERVE_BED
         scene.write_text(text.format(end=end, stepper=STEPPERS[stepper], gravity=gravity, averaged_from=averaged_from) + bodies)
         return scene
-
-    def run_scene(self, scene, results, *arguments):
-        command = [SCREE, "run", str(scene), "-o", str(self.folder / results), "--quiet", *arguments]
-        done = subprocess.run(command, text=True, capture_output=True)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-
-    def table(self, results, name):
-        with open(self.folder / results / name, newline="") as file:
-            rows = list(csv.reader(file))
-        names = [column.split(" [")[0] for column in rows[0]]
-        return [dict(zip(names, row)) for row in rows[1:]]
-
-    def near(self, value, expected, tolerance):
-        self.assertLessEqual(abs(float(value) - expected), tolerance, f"{value} is not {expected}")
 
     # Balls that fly evenly: the third of them passes beside the gate, the fourth comes back through it. Times to rounding.
     def test_even_flight_passes_the_gate_when_it_should(self):

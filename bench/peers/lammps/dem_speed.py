@@ -10,16 +10,15 @@ spoils less: the loop's or the steps' share of what the process took. Prints a t
 Needs Debian's lammps; otherwise the standard library only.
 """
 
-import argparse
 import csv
 import os
 import pathlib
 import re
 import shlex
-import shutil
 import statistics
 import sys
 
+import contest_arguments
 import grains
 from dem_side import options
 from lammps_side import Lammps, Law, STIFFNESS, TIME_STEP
@@ -40,7 +39,7 @@ class Contest:
         folder, prefix = wanted.folder.resolve() / f"{bed.stem}_{cores}", shlex.split(wanted.prefix)
         self.skin = wanted.skin or 0.2 * min(row[3] for row in self.rows)  # scree's own choice
         self.scree = Scree(wanted.program, folder, "bed", bed, cores, options(TIME_STEP, OUTER, wanted.skin, prefix))
-        self.lammps = Lammps(wanted.lammps, folder, "bed", self.rows, side, cores, prefix, Law(skin=self.skin))
+        self.lammps = Lammps(wanted.peer, folder, "bed", self.rows, side, cores, prefix, Law(skin=self.skin))
 
     def particle_steps(self, seconds):
         return len(self.rows) * round(seconds / TIME_STEP)
@@ -85,19 +84,11 @@ def compare(wanted, bed, cores):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("program", help="the scree program")
-    parser.add_argument("folder", type=pathlib.Path, help="for beds, runs and tables")
-    parser.add_argument("beds", type=pathlib.Path, nargs="*", metavar="BED")
-    parser.add_argument("--lammps", default="lmp", help="the LAMMPS program")
-    parser.add_argument("--cores", type=lambda text: [int(n) for n in text.split(",")], default=[1, 2])
-    parser.add_argument("--pairs", type=int, default=5)
+    parser = contest_arguments.parser(__doc__, "lammps", "lmp", beds="*", pairs=5)
     parser.add_argument("--seconds", type=float, default=0.02, help="simulated while the clock runs [s]")
     parser.add_argument("--skin", type=float, default=0.0, help="of both neighbour lists [m]; 0: scree's own, for both")
-    parser.add_argument("--prefix", default="", help="command put before what is timed")
     wanted = parser.parse_args()
-    if not shutil.which(wanted.lammps):
-        print(f"{wanted.lammps} is not installed: skipped (Debian's lammps has it)")
+    if contest_arguments.is_missing(wanted.peer, "lammps"):
         return 77
     wanted.folder.mkdir(parents=True, exist_ok=True)
     beds = [bed.resolve() for bed in wanted.beds] or [scaling.make_tile(wanted.program, wanted.folder.resolve())]

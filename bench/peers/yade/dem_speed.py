@@ -8,17 +8,16 @@ the first, Yade's that of as many steps after 25. The kinetic energies at the en
 Needs Debian's yade; otherwise the standard library only.
 """
 
-import argparse
 import pathlib
 import re
 import shlex
-import shutil
 import statistics
 import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "lammps"))
 
+import contest_arguments  # noqa: E402
 import grains  # noqa: E402
 from dem_side import options  # noqa: E402
 from lammps_side import TIME_STEP  # noqa: E402
@@ -39,7 +38,7 @@ def run_scree(wanted, bed, cores):
 def run_yade(wanted, bed, cores):
     skin = 0.2 * min(row[3] for row in grains.read_bed(bed)[0])  # scree's own choice
     script = pathlib.Path(__file__).resolve().parent / "bed.py"
-    out = subprocess.run([*shlex.split(wanted.prefix), wanted.yade, "-n", "-x", "-j", str(cores), str(script), str(bed), repr(TIME_STEP),
+    out = subprocess.run([*shlex.split(wanted.prefix), wanted.peer, "-n", "-x", "-j", str(cores), str(script), str(bed), repr(TIME_STEP),
                           str(wanted.steps), str(round(OUTER / TIME_STEP)), repr(skin)],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False).stdout
     found = re.search(r"seconds (\S+) energy (\S+) contacts (\d+)", out)
@@ -59,19 +58,11 @@ def compare(wanted, bed, cores):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("program", help="the scree program")
-    parser.add_argument("folder", type=pathlib.Path, help="for scenes and runs")
-    parser.add_argument("beds", type=pathlib.Path, nargs="+", metavar="BED")
-    parser.add_argument("--yade", default="yade", help="the Yade program")
-    parser.add_argument("--cores", type=lambda text: [int(n) for n in text.split(",")], default=[1, 2])
-    parser.add_argument("--pairs", type=int, default=3)
+    parser = contest_arguments.parser(__doc__, "yade", "yade", beds="+", pairs=3)
     parser.add_argument("--steps", type=int, default=500, help="of %g s, while the clock runs; a multiple of %d" %
                         (TIME_STEP, round(OUTER / TIME_STEP)))
-    parser.add_argument("--prefix", default="", help="command put before what is timed")
     wanted = parser.parse_args()
-    if not shutil.which(wanted.yade):
-        print(f"{wanted.yade} is not installed: skipped (Debian's yade has it)")
+    if contest_arguments.is_missing(wanted.peer, "yade"):
         return 77
     print("| " + " | ".join(HEADER) + " |\n|" + "---|" * len(HEADER))
     for bed in wanted.beds:
