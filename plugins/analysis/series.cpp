@@ -35,4 +35,11 @@ std::vector<double> Series::first_of(std::string_view name) const {
   return rows() == 0 ? std::vector<double>{} : table_->column(index(name), 0, table_->value(0, 0));
 }
 
+void Series::leave_out(std::span<const std::string> columns) {
+  if (columns.empty()) return;
+  std::vector<char> left_out(names_.size(), 0);
+  for (const std::string& name : columns) left_out[index(name)] = 1;
+  table_->close_without(left_out);
+}
+
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +51,10 @@ class Series {
   [[nodiscard]] std::vector<double> last_of(std::string_view name) const;
   /// The same of the first time.
   [[nodiscard]] std::vector<double> first_of(std::string_view name) const;
+
+  /// At the end: the file without these columns; add() is not called any more. @throws std::logic_error when there is no such
+  /// column, Error (io).
+  void leave_out(std::span<const std::string> columns);
 
   void save(StateWriter& out, std::string_view name) const { table_->save(*out.group(name)); }
   /// To be called after open(). @throws Error (io).

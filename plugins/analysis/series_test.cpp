@@ -50,6 +50,21 @@ TEST(series, goes_on_from_a_checkpoint_with_the_rows_of_before) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(series, leaves_columns_out_of_the_file_and_keeps_them_for_plots_and_checkpoints) {
+  const auto folder = std::filesystem::temp_directory_path() / ("scree_series_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  Series series;
+  series.open(folder / "all.csv", {{"time", "s"}, {"mass_a", "kg"}, {"mass_b", "kg"}});
+  series.add({0.5, 0.0, 7.0});
+  series.add({1.0, 0.0, 8.0});
+  series.leave_out(std::vector<std::string>{"mass_a"});
+  EXPECT_EQ(text_of(folder / "all.csv"), "time [s],mass_b [kg]\n0.5,7\n1,8\n");
+  EXPECT_EQ(series.column("mass_a"), (std::vector{0.0, 0.0}));
+  EXPECT_EQ(series.column("mass_b"), (std::vector{7.0, 8.0}));
+  EXPECT_THROW(series.leave_out(std::vector<std::string>{"mass_c"}), std::logic_error);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(series, refuses_rows_and_columns_that_do_not_fit) {
   Series series;
   series.open("", {{"time", "s"}, {"mass", "kg"}});

@@ -13,8 +13,11 @@ std::uint64_t steps_between(double interval, double time_step) {
 }
 
 void SeriesTable::open(const std::filesystem::path& file) {
+  path_ = file;
   std::vector<CsvColumn> header;
-  for (const SeriesColumn& column : columns_) header.push_back({column.name, column.unit});
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (left_out_.empty() || left_out_[i] == 0) header.push_back({columns_[i].name, columns_[i].unit});
+  }
   file_ = std::make_unique<CsvWriter>(file, header);
 }
 
@@ -27,6 +30,7 @@ void SeriesTable::add(std::span<const double> row) {
 void SeriesTable::write(std::span<const double> row) {
   if (!file_) return;
   for (std::size_t i = 0; i < row.size(); ++i) {
+    if (!left_out_.empty() && left_out_[i] != 0) continue;
     const std::vector<std::string>& words = columns_[i].words;
     if (words.empty()) {
       file_->cell(row[i]);
@@ -39,6 +43,16 @@ void SeriesTable::write(std::span<const double> row) {
 
 void SeriesTable::close() {
   if (file_) file_->close();
+}
+
+void SeriesTable::close_without(const std::vector<char>& left_out) {
+  SCREE_REQUIRE(left_out.size() == columns_.size(), "a mark for each column");
+  if (!file_) return;
+  file_->close();
+  left_out_ = left_out;
+  open(path_);
+  write_all();
+  file_->close();
 }
 
 std::vector<double> SeriesTable::column(std::size_t column) const {
@@ -59,6 +73,10 @@ void SeriesTable::save(StateWriter& out) const { out.write("rows", std::span<con
 
 void SeriesTable::load(const StateReader& in) {
   values_ = in.doubles("rows");
+  write_all();
+}
+
+void SeriesTable::write_all() {
   for (std::size_t row = 0; row < rows(); ++row) {
     write(std::span<const double>{values_}.subspan(row * columns_.size(), columns_.size()));
   }

@@ -36,6 +36,8 @@ class SeriesTable {
   /// As many values as columns. @throws Error (io).
   void add(std::span<const double> row);
   void close();
+  /// Writes the file anew, without the columns for which `left_out` has a 1, and closes it; rows stay. @throws Error (io).
+  void close_without(const std::vector<char>& left_out);
 
   [[nodiscard]] std::size_t rows() const { return columns_.empty() ? 0 : values_.size() / columns_.size(); }
   [[nodiscard]] double value(std::size_t row, std::size_t column) const {
@@ -51,9 +53,12 @@ class SeriesTable {
 
  private:
   void write(std::span<const double> row);
+  void write_all();
 
   std::vector<SeriesColumn> columns_;
+  std::vector<char> left_out_;  // of the file, by column; empty for none
   std::vector<double> values_;  // row by row
+  std::filesystem::path path_;
   std::unique_ptr<CsvWriter> file_;
 };
 

@@ -46,13 +46,13 @@ void MassFlowObserver::setup(SceneServices& services, const std::filesystem::pat
         fmt::format("mass_flow: fit_from = {:g} s is not before the end of the run at {:g} s: no constant rate",
                     options_.number("fit_from"), services.end_time()));
   }
-  materials_ = services.materials().names();
+  materials_ = GrainMaterials{services.materials()};
   passed_.assign(materials_.size(), {});
   net_before_.assign(materials_.size(), 0.0);
   std::vector<SeriesColumn> columns{{"time", "s"},           {"interval_begin", "s"}, {"number_forward", ""},
                                     {"number_backward", ""}, {"mass_forward", "kg"},  {"mass_backward", "kg"},
                                     {"mass_rate", "kg/s"}};
-  for (const std::string& material : materials_) {
+  for (const std::string& material : materials_.names()) {
     columns.push_back({"mass_" + lower_snake(material), "kg"});
     columns.push_back({"mass_rate_" + lower_snake(material), "kg/s"});
   }
@@ -61,7 +61,7 @@ void MassFlowObserver::setup(SceneServices& services, const std::filesystem::pat
   crossings_.open(lists_crossings_ ? stem_.table("crossings") : std::filesystem::path{},
                   {{"time", "s"},
                    {"id"},
-                   {"material", "", materials_},
+                   {"material", "", materials_.names()},
                    {"direction", "", {"backward", "forward"}},
                    {"x", "m"},
                    {"y", "m"},
@@ -80,6 +80,7 @@ void MassFlowObserver::observe(const Observation& now, Attributes&) {
   bodies_.walk(now.bodies, [&](BodyIndex i, Before& before, bool is_new) {
     const Vec3& place = now.bodies.position[i];
     // Fed at the begin of this step: it came from where its velocity says.
+    if (is_new) materials_.see(now.bodies.material[i]);
     if (is_new) before.place = frame_.local(place - now.dt * now.bodies.velocity[i]);
     const Vec3 local = frame_.local(place);
     if (const auto passage = gate_.passage(before.place, local)) count(now, i, *passage);
@@ -181,9 +182,9 @@ plot::Figure MassFlowObserver::totals() const {
   std::size_t moving = 0;
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     const bool any = passed_[m].number_forward + passed_[m].number_backward > 0.0;
+    const std::string& name = materials_.names()[m];
     if (any && ++moving > 0) {
-      figure.series.push_back(
-          {materials_[m], plot::SeriesStyle::line, time, series_.column("mass_" + lower_snake(materials_[m]))});
+      figure.series.push_back({name, plot::SeriesStyle::line, time, series_.column("mass_" + lower_snake(name))});
     }
   }
   if (moving == 1) return figure;
@@ -196,6 +197,11 @@ plot::Figure MassFlowObserver::totals() const {
 
 void MassFlowObserver::finish(const Observation& last) {
   if (series_.wants(last.time) && last.time > interval_begin_) end_interval(last.time);
+  std::vector<std::string> of_walls;
+  for (const char* prefix : {"mass_rate_", "mass_"}) {
+    for (std::string& column : materials_.columns_of_walls(prefix)) of_walls.push_back(std::move(column));
+  }
+  series_.leave_out(of_walls);
   if (!stem_.writes() || series_.rows() == 0) return;
   plot::write_figure(rates(), stem_.figure());
   plot::write_figure(totals(), stem_.figure("total"));
@@ -221,7 +227,7 @@ std::vector<ReportTable> MassFlowObserver::report() const {
   for (std::size_t m = 0; m < passed_.size(); ++m) {
     const Passed& passed = passed_[m];
     if (passed.number_forward + passed.number_backward > 0.0) {
-      add(materials_[m], passed, "mass_rate_" + lower_snake(materials_[m]));
+      add(materials_.names()[m], passed, "mass_rate_" + lower_snake(materials_.names()[m]));
     }
   }
   add("all", passed_by_all(), "mass_rate");
@@ -234,6 +240,7 @@ void MassFlowObserver::save(StateWriter& out) const {
   for (const Passed& p : passed_) {
     passed.insert(passed.end(), {p.number_forward, p.number_backward, p.mass_forward, p.mass_backward});
   }
+  materials_.save(out, "materials");
   out.write("passed", passed);
   out.write("net_before", net_before_);
   out.write("interval_begin", interval_begin_);
@@ -243,6 +250,7 @@ void MassFlowObserver::save(StateWriter& out) const {
 
 void MassFlowObserver::load(const StateReader& in) {
   bodies_.load(*in.group("bodies"));
+  materials_.load(in, "materials");
   const std::vector<double> passed = in.doubles("passed");
   net_before_ = in.doubles("net_before");
   if (passed.size() != 4 * passed_.size() || net_before_.size() != passed_.size()) {

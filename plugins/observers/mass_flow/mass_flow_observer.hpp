@@ -7,6 +7,7 @@
 
 #include "analysis/body_memory.hpp"
 #include "analysis/frame.hpp"
+#include "analysis/grain_materials.hpp"
 #include "analysis/series.hpp"
 #include "analysis/stem.hpp"
 #include "flow_rate.hpp"
@@ -27,6 +28,7 @@ class MassFlowObserver final : public Observer {
   void observe(const Observation& now, Attributes& attributes) override;
   void finish(const Observation& last) override;
   [[nodiscard]] std::vector<ReportTable> report() const override;
+  [[nodiscard]] int version() const override { return 2; }
   void save(StateWriter& out) const override;
   void load(const StateReader& in) override;
 
@@ -59,7 +61,7 @@ class MassFlowObserver final : public Observer {
   Frame frame_;
   Schedule schedule_;
   Stem stem_;
-  std::vector<std::string> materials_;
+  GrainMaterials materials_;
   bool lists_crossings_ = false;
   BodyMemory<Before> bodies_;
   std::vector<Passed> passed_;      // by material

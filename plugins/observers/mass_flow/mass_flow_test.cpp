@@ -55,6 +55,24 @@ TEST_F(MassFlowTest, counts_both_ways_by_material_and_knows_when) {
   EXPECT_TRUE(has_figure("mass_flow_total"));
 }
 
+// A wall of steel has no column; steel that was fed and is gone again, without passing the gate, has one.
+TEST_F(MassFlowTest, ends_without_columns_of_materials_that_only_walls_have) {
+  bodies.add_immovable(0, {0, 0, -1});
+  bodies.material.back() = 1;
+  add(1, {0, 0, 0.025}, {0, 0, -1}, 2.0);
+  for (const bool steel_is_fed : {false, true}) {
+    const auto observer = make(kFalling);
+    if (steel_is_fed) add(2, {0, 0, 1.0}, {0, 0, 0}, 3.0, 1);
+    observer->observe(at(1), services.attributes());
+    if (steel_is_fed) erase(2);
+    observer->observe(at(2), services.attributes());
+    observer->finish(at(2));
+    const std::string last = csv("mass_flow.csv").at(0).back();
+    EXPECT_EQ(last, steel_is_fed ? "mass_rate_steel [kg/s]" : "mass_rate_glass [kg/s]");
+    EXPECT_EQ(csv("mass_flow.csv").at(1).size(), csv("mass_flow.csv").at(0).size());
+  }
+}
+
 // A body fed at the begin of a step that crosses within that step was not seen before it crossed.
 TEST_F(MassFlowTest, sees_what_crosses_in_the_step_it_was_fed_in) {
   const auto observer = make(kFalling);

@@ -39,7 +39,7 @@ void SegregationObserver::setup(SceneServices& services, const std::filesystem::
   schedule_ = Schedule{options_, services.time_step()};
   stem_ = Stem{"segregation", services, results};
   classes_ = TwoClasses{options_, services};
-  materials_ = services.materials().names();
+  materials_ = GrainMaterials{services.materials()};
   bins_ = std::make_unique<AxisProfile>(options_.number("from"), options_.number("to"),
                                         static_cast<std::size_t>(options_.integer("bins")), materials_.size());
   const auto& names = classes_.names();
@@ -55,7 +55,8 @@ void SegregationObserver::setup(SceneServices& services, const std::filesystem::
   std::vector<SeriesColumn> columns{{"time", "s"},        {"from", "m"},           {"to", "m"},
                                     {"number"},           {"mass", "kg"},          {"mean_diameter", "m"},
                                     {"density", "kg/m3"}, {"share_of_" + names[0]}};
-  for (const std::string& material : materials_) columns.push_back({"share_of_material_" + lower_snake(material)});
+  for (const std::string& material : materials_.names())
+    columns.push_back({"share_of_material_" + lower_snake(material)});
   profiles_.open(stem_.table("profile"), std::move(columns));
 }
 
@@ -70,6 +71,7 @@ void SegregationObserver::look(const Observation& now) {
   std::size_t dynamic = 0;
   for (std::size_t i = 0; i < now.bodies.size(); ++i) {
     if (now.bodies.motion[i] != Motion::dynamic) continue;
+    materials_.see(now.bodies.material[i]);
     const BodyClass of = classes_.of_dynamic()[dynamic++];
     if (!region_.contains(now.bodies.position[i])) continue;
     const double r = now.bodies.radius[i], volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
@@ -146,6 +148,7 @@ void SegregationObserver::finish(const Observation& last) {
     classes_.look(last.bodies, last.time);
     look(last);
   }
+  profiles_.leave_out(materials_.columns_of_walls("share_of_material_"));
   if (!stem_.writes()) return;
   plot::write_figure(over_time(), stem_.figure());
   plot::write_figure(profile(), stem_.figure("profile"));
@@ -173,12 +176,14 @@ std::vector<ReportTable> SegregationObserver::report() const {
 
 void SegregationObserver::save(StateWriter& out) const {
   classes_.save(*out.group("classes"));
+  materials_.save(out, "materials");
   series_.save(out, "series");
   profiles_.save(out, "profiles");
 }
 
 void SegregationObserver::load(const StateReader& in) {
   classes_.load(*in.group("classes"));
+  materials_.load(in, "materials");
   series_.load(in, "series");
   profiles_.load(in, "profiles");
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/classes.hpp"
+#include "analysis/grain_materials.hpp"
 #include "analysis/region.hpp"
 #include "analysis/series.hpp"
 #include "analysis/stem.hpp"
@@ -27,6 +28,7 @@ class SegregationObserver final : public Observer {
   void observe(const Observation& now, Attributes& attributes) override;
   void finish(const Observation& last) override;
   [[nodiscard]] std::vector<ReportTable> report() const override;
+  [[nodiscard]] int version() const override { return 2; }
   void save(StateWriter& out) const override;
   void load(const StateReader& in) override;
 
@@ -42,7 +44,7 @@ class SegregationObserver final : public Observer {
   Schedule schedule_;
   Stem stem_;
   TwoClasses classes_;
-  std::vector<std::string> materials_;
+  GrainMaterials materials_;
   std::unique_ptr<AxisProfile> bins_;
   Series series_;
   Series profiles_;

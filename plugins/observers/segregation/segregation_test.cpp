@@ -111,6 +111,18 @@ TEST_F(SegregationTest, writes_profiles_by_size_density_and_material) {
   EXPECT_TRUE(has_figure("segregation_profile"));
 }
 
+TEST_F(SegregationTest, ends_without_the_share_of_a_material_that_only_walls_have) {
+  const auto observer = make(kScene);
+  bodies.add_immovable(0, {0, 0, 0.5});
+  bodies.material.back() = 1;
+  bodies.add_sphere(1, {0, 0, 0.1}, 1e-3, 1000.0);
+  observer->observe(at(1), services.attributes());
+  observer->finish(at(1));
+  const auto profile = csv("segregation_profile.csv");
+  EXPECT_EQ(profile.at(0).back(), "share_of_material_glass");
+  EXPECT_EQ(std::stod(profile.at(1).back()), 1.0);
+}
+
 TEST_F(SegregationTest, goes_on_from_a_checkpoint_while_bodies_come_and_go) {
   const auto run = [&](SegregationObserver& observer, std::uint64_t first, std::uint64_t last) {
     for (std::uint64_t step = first; step <= last; ++step) {
