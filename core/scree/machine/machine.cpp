@@ -130,10 +130,10 @@ void Machine::place(const BodyView& bodies, std::span<const Twist> velocity, con
   }
 }
 
-void Machine::pose(const BodyView& bodies, std::span<const Twist> free, const PoseAfter& after, double time,
-                   double dt) {
-  dt_ = dt;
-  end_ = time + dt;
+void Machine::pose(const BodyView& bodies, std::span<const Twist> free, const PoseAfter& after,
+                   const MachineStep& step) {
+  step_ = step;
+  end_ = step.time + step.drift;
   view_ = bodies;
   inertia_.clear();
   before_.clear();
@@ -184,7 +184,7 @@ void Machine::add_group(const RowGroup& group, std::span<const Twist> free) {
     if (row.at.b < 0) in_problem.b = {};
     rows_.push_back(in_problem);
     compliance_.push_back(row.compliance);
-    guess_.push_back(last_dt_ > 0.0 ? last_impulse_[group.first_slot + k] * (dt_ / last_dt_) : 0.0);
+    guess_.push_back(last_kick_ > 0.0 ? last_impulse_[group.first_slot + k] * (step_.kick / last_kick_) : 0.0);
     const auto index = [&](int number, int other) {
       return bodies_[static_cast<std::size_t>(number < 0 ? other : number)];
     };
@@ -196,7 +196,7 @@ void Machine::add_group(const RowGroup& group, std::span<const Twist> free) {
 }
 
 MachineRow Machine::row_of(const RowGroup& group, std::size_t k) const {
-  const MachinePlacement now{placed_, states_, end_ - dt_};
+  const MachinePlacement now{placed_, states_, step_.time};
   if (group.role != RowRole::coupling) {
     const std::uint32_t j = joint_of(description_, group);
     return {ends_[j][0], ends_[j][1], row_jacobian(description_, group, k, now, length_[j])};
@@ -238,16 +238,19 @@ double Machine::right_side(StepRow& row, CcpBlock& block, std::span<const Twist>
       break;
   }
   row.exact = true;
-  return value(row, after_) / dt_;
+  if (step_.drift > 0.0) return value(row, after_) / step_.drift;
+  row.linear = true;
+  return rate_free;
 }
 
-// In the row's own scale: a stiffness k of an angle is k / L^2 of the row's length, a preload F is F / L.
+// In the row's own scale: a stiffness k of an angle is k / L^2 of the row's length, a preload F is F / L. The force is that
+// at the end of the drift; without one, as if there were one as long as the kick.
 double Machine::spring_side(StepRow& row, const SpringLaw& law, double preload, double rate_free) const {
   const double l = row.scale, k = law.stiffness / (l * l), d = law.damping / (l * l);
-  const double sum = dt_ * k + d;
-  const double straight = value(row, after_) - dt_ * rate_free;
+  const double sum = (step_.drift > 0.0 ? step_.drift : step_.kick) * k + d;
+  const double straight = value(row, after_) - step_.drift * rate_free;
   row.linear = row.exact = true;
-  row.compliance = 1.0 / (dt_ * sum);
+  row.compliance = 1.0 / (step_.kick * sum);
   row.offset = (k * straight - preload / l) / sum;
   return rate_free + row.offset;
 }
@@ -255,9 +258,12 @@ double Machine::spring_side(StepRow& row, const SpringLaw& law, double preload, 
 double Machine::stop_side(const StepRow& row, double rate_free) const {
   const Joint& joint = description_.joints[row.group.owner];
   const double left = value(row, placed_), then = value(row, after_);
-  double r = left >= 0.0 ? then / dt_ : rate_free + std::max(left / dt_, -kRecoverySpeed);
+  const bool drifts = step_.drift > 0.0;
+  const double time = drifts ? step_.drift : step_.kick;
+  const double open = drifts ? then / time : rate_free + left / time;
+  double r = left >= 0.0 ? open : rate_free + std::max(left / time, -kRecoverySpeed);
   const double rate_before = rate(row.at, before_);
-  if (rate_before < -kBounceSpeed && then <= 0.0) {
+  if (drifts && rate_before < -kBounceSpeed && then <= 0.0) {
     r = std::min(r, rate_free + joint.along(row.group.coordinate).stop_restitution * rate_before);
   }
   return r;
@@ -265,9 +271,9 @@ double Machine::stop_side(const StepRow& row, double rate_free) const {
 
 double Machine::motor_side(StepRow& row, CcpBlock& block, double rate_free) const {
   const Motor& motor = description_.motors[row.group.owner];
-  const double l = row.scale, most = motor.limit * dt_ / l;
+  const double l = row.scale, most = motor.limit * step_.kick / l;
   if (motor.drive == Drive::effort) {
-    const double g = std::clamp(motor.value.value(end_), -motor.limit, motor.limit) * dt_ / l;
+    const double g = std::clamp(motor.value.value(end_), -motor.limit, motor.limit) * step_.kick / l;
     block.kind = CcpKind::box;
     block.lower = block.upper = g;
     row.linear = true;
@@ -279,9 +285,14 @@ double Machine::motor_side(StepRow& row, CcpBlock& block, double rate_free) cons
     block.upper = most;
   }
   row.exact = true;
-  if (motor.drive == Drive::position) return value(row, after_) / dt_;
+  const bool drifts = step_.drift > 0.0;
+  if (motor.drive == Drive::position && drifts) return value(row, after_) / step_.drift;
   row.linear = true;
-  row.offset = -l * motor.value.integral(end_ - dt_, end_) / dt_;
+  if (motor.drive == Drive::position) {
+    row.offset = -l * motor.value.derivative(end_);
+  } else {
+    row.offset = -l * (drifts ? motor.value.integral(step_.time, end_) / step_.drift : motor.value.value(end_));
+  }
   return rate_free + row.offset;
 }
 

@@ -3,7 +3,7 @@
 // A time stepper that knows joints goes through a step so:
 //
 //     machine.locate(bodies);                                  // which bodies, where in the view
-//     machine.pose(bodies, free velocities, after, time, dt);  // rows at the free motion
+//     machine.pose(bodies, free velocities, after, step);      // rows at the free motion
 //     problem() -> blocks of the contact problem -> impulses
 //     machine.settle(impulses, velocities, after);             // what the solver left in the joints is taken out
 //
@@ -35,6 +35,13 @@ class StateWriter;
 
 /// The pose of a body after the step, for its velocity in it.
 using PoseAfter = std::function<Pose(BodyIndex, const Twist&)>;
+
+/// When a machine acts. A stepper may kick bodies for other times than they drift: at the ends of its steps half as long.
+struct MachineStep {
+  double time = 0.0;   ///< at its beginning [s]
+  double drift = 0.0;  ///< for which bodies move [s]; 0: velocities are to obey the joints where bodies are
+  double kick = 0.0;   ///< for which springs, motors and stops act [s]
+};
 
 /// What a machine adds to the contact problem of a step. Spans hold until the next pose().
 struct MachineProblem {
@@ -77,10 +84,9 @@ class Machine {
   /// Takes the present poses for those at which couplings and turns begin.
   void start(const BodyView& bodies);
 
-  /// Makes the rows of a step from `time` to `time + dt`. `free` [m/s], [rad/s]: velocities without impulses, one per
-  /// entry of bodies(), in that order.
-  /// `bodies` and `after` stay valid until settle().
-  void pose(const BodyView& bodies, std::span<const Twist> free, const PoseAfter& after, double time, double dt);
+  /// Makes the rows of a step. `free` [m/s], [rad/s]: velocities without impulses, one per entry of bodies(), in that order;
+  /// the velocities of `bodies` are those before all impulses of the kick. `bodies` and `after` stay valid until settle().
+  void pose(const BodyView& bodies, std::span<const Twist> free, const PoseAfter& after, const MachineStep& step);
   [[nodiscard]] MachineProblem problem() const;
 
   /// Takes out of `velocity` (one per entry of bodies(), at the end of the step) what it lacks in the rows that hold
@@ -156,12 +162,13 @@ class Machine {
   std::vector<BodyIndex> bodies_;         ///< by number
   std::vector<int> numbers_;              ///< by id, or kGone
   std::vector<JointState> states_;
-  std::vector<double> last_impulse_;  ///< by slot, of last_dt_ [N s]
+  std::vector<double> last_impulse_;  ///< by slot, of last_kick_ [N s]
   std::vector<double> energy_;        ///< by report [J]
-  double last_dt_ = 0.0;              ///< [s]
+  double last_kick_ = 0.0;            ///< [s]
   Memory kept_;
 
-  double dt_ = 0.0, end_ = 0.0;         // of the step [s]
+  MachineStep step_;
+  double end_ = 0.0;                    // of the step [s]
   double work_ = 0.0;                   // of the step [J]
   BodyView view_;                       // of the step
   std::vector<BodyInertia> inertia_;    // by number

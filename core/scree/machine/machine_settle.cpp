@@ -40,13 +40,13 @@ void Machine::settle(std::span<double> impulse, std::span<Twist> velocity, const
   account(impulse, velocity);
   note_coordinates(velocity);
   break_overloaded();
-  last_dt_ = dt_;
+  last_kick_ = step_.kick;
 }
 
 void Machine::hold(std::span<double> impulse, std::span<Twist> velocity, const PoseAfter& after) {
   gather_held(impulse);
   if (held_.empty() || !projection_.bind(held_rows_, held_compliance_, inertia_)) return;
-  const double enough = std::max(kExact, rounding(placed_) / dt_);
+  const double enough = std::max(kExact, rounding(placed_) / step_.kick);
   double worst = find_defects(impulse, velocity, view_, after);
   for (int round = 0; round < kMostRounds && worst > enough && std::isfinite(worst); ++round) {
     projection_.solve(defect_, correction_);
@@ -101,7 +101,7 @@ double Machine::find_defects(std::span<const double> impulse, std::span<const Tw
   for (std::size_t k = 0; k < held_.size(); ++k) {
     const StepRow& row = step_rows_[held_[k]];
     defect_[k] = row.linear ? rate(row.at, velocity) + row.offset + row.compliance * impulse[held_[k]]
-                            : value(row, after_) / dt_;
+                            : value(row, after_) / step_.drift;
     worst = std::max(worst, std::abs(defect_[k]));
   }
   return worst;
@@ -146,11 +146,11 @@ void Machine::account(std::span<const double> impulse, std::span<const Twist> ve
   work_ = 0.0;
   for (std::size_t i = 0; i < step_rows_.size(); ++i) {
     const StepRow& row = step_rows_[i];
-    const double g = impulse[i], per_second = g / dt_;
+    const double g = impulse[i], per_second = g / step_.kick;
     last_impulse_[row.group.first_slot + row.k] = g;
     MachineReport& report = report_of(row.group);
     const double work = 0.5 * g * (rate(row.at, before_) + rate(row.at, velocity));
-    report.power += work / dt_;
+    report.power += work / step_.kick;
     energy_[static_cast<std::size_t>(&report - reports_.data())] += work;
     work_ += 0.5 * g * (rate_of_moved(row.at, before_) + rate_of_moved(row.at, velocity));
     const bool of_joint = row.group.role != RowRole::motor && row.group.role != RowRole::coupling;
@@ -206,14 +206,14 @@ void Machine::keep() {
   kept_.states.assign(states_.begin(), states_.end());
   kept_.impulse.assign(last_impulse_.begin(), last_impulse_.end());
   kept_.energy.assign(energy_.begin(), energy_.end());
-  kept_.dt = last_dt_;
+  kept_.dt = last_kick_;
 }
 
 void Machine::undo() {
   states_ = kept_.states;
   last_impulse_ = kept_.impulse;
   energy_ = kept_.energy;
-  last_dt_ = kept_.dt;
+  last_kick_ = kept_.dt;
 }
 
 void Machine::save(StateWriter& out) const {
@@ -229,7 +229,7 @@ void Machine::save(StateWriter& out) const {
   out.write("gone", std::span<const std::uint64_t>{gone});
   out.write("impulse", std::span<const double>{last_impulse_});
   out.write("energy", std::span<const double>{energy_});
-  out.write("time_step", last_dt_);
+  out.write("time_step", last_kick_);
 }
 
 void Machine::load(const StateReader& in) {
@@ -240,7 +240,7 @@ void Machine::load(const StateReader& in) {
   }
   last_impulse_ = in.doubles("impulse");
   energy_ = in.doubles("energy");
-  last_dt_ = in.number("time_step");
+  last_kick_ = in.number("time_step");
 }
 
 }  // namespace scree

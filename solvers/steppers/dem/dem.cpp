@@ -76,12 +76,12 @@ StepSummary Dem::step(StepServices& services, const BodyState& bodies, double ti
     tally.greatest_overlap = std::max(tally.greatest_overlap, greatest);
     work.boundary_work += tally.belt_work;
     const bool drifts = stage != dem::Stage::last;
-    if (drifts && !joints_.empty()) joints_.before(slots_, bodies);
-    const dem::Motions moved = verlet_.advance(slots_, h_, stage, services.executor());
+    if (!joints_.empty()) joints_.before(slots_, bodies, stage);
+    dem::Motions moved = verlet_.advance(slots_, h_, stage, services.executor());
+    if (!joints_.empty()) joints_.after(slots_, bodies.view, time + static_cast<double>(k) * h_, h_, stage, moved);
     work.contact_work += moved.contact_work;
     work.boundary_work += moved.boundary_work;
     work.force_work += moved.force_work;
-    if (drifts && !joints_.empty()) joints_.after(slots_, bodies.view, time + static_cast<double>(k) * h_, h_);
     if (drifts) watch_drift(call, h_ * moved.fastest);
   }
   slots_.store(bodies, unstored_, services.executor());

@@ -40,20 +40,24 @@ std::span<const BodyIndex> Joints::bodies() const {
   return machine_ == nullptr ? std::span<const BodyIndex>{} : machine_->bodies();
 }
 
-void Joints::before(const Slots& slots, const BodyState& state) {
+void Joints::before(const Slots& slots, const BodyState& state, Stage stage) {
   const std::span<const BodyIndex> bodies = machine_->bodies();
   slots.store_poses(state, bodies);
   held_.resize(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const Slot slot = slots.slot_of[bodies[k]];
     const Moving& moving = slots.moving[slot];
+    // What moves on through the middle of a step are velocities at the ends of drifts: those before the kick are what joints left.
+    const Twist before =
+        stage == Stage::first || !moving.is_dynamic() ? Twist{moving.linear, moving.angular} : velocity_[k];
     if (moving.is_dynamic()) {
-      state.velocity[bodies[k]] = moving.linear;
-      state.angular_velocity[bodies[k]] = moving.angular;
+      state.velocity[bodies[k]] = before.linear;
+      state.angular_velocity[bodies[k]] = before.angular;
     }
     const auto entry = std::ranges::lower_bound(slots.turning, slot, {}, &Turning::slot);
     Body& body = held_[k];
     body = {.start = {state.position[bodies[k]], state.orientation[bodies[k]]},
+            .before = before,
             .inertia = {},
             .inverse = {inverse_mass(state.view, bodies[k]), inverse_inertia(state.view, bodies[k])},
             .turning = kNone};
@@ -65,42 +69,67 @@ void Joints::before(const Slots& slots, const BodyState& state) {
   }
 }
 
-void Joints::after(Slots& slots, const BodyView& bodies, double time, double h) {
+void Joints::after(Slots& slots, const BodyView& bodies, double time, double h, Stage stage, Motions& done) {
+  const std::span<const BodyIndex> index = machine_->bodies();
+  const double drift = stage == Stage::last ? 0.0 : h, kick = stage == Stage::middle ? h : 0.5 * h;
+  find_free(slots, drift);
+  const PoseAfter pose_after = [&](BodyIndex i, const Twist& v) {
+    const auto k = static_cast<std::size_t>(std::ranges::find(index, i) - index.begin());
+    return k < held_.size() ? moved(held_[k].start, v, drift) : Pose{bodies.position[i], bodies.orientation[i]};
+  };
+  machine_->pose(bodies, free_, pose_after, {.time = time, .drift = drift, .kick = kick});
+  velocity_ = free_;
+  solve_rows(velocity_);
+  machine_->settle(impulse_, velocity_, pose_after);
+  allow(slots, drift, kick, done);
+}
+
+/// Velocities without joints: of the drift, which is done already, or, at the end of an outer step, those of then.
+void Joints::find_free(const Slots& slots, double h) {
   const std::span<const BodyIndex> index = machine_->bodies();
   free_.resize(index.size());
   for (std::size_t k = 0; k < index.size(); ++k) {
     const Slot slot = slots.slot_of[index[k]];
     const Body& body = held_[k];
-    // The velocities of the drift, which is done already.
+    if (h == 0.0) {
+      free_[k] = {slots.moving[slot].linear, slots.moving[slot].angular};
+      continue;
+    }
     free_[k].linear = (1.0 / h) * (slots.place[slot].position - body.start.position);
     free_[k].angular = {};
     if (body.turning == kNone) continue;
     const Quat turn = slots.turning[body.turning].orientation * conjugate(body.start.orientation);
     free_[k].angular = (1.0 / h) * rotation_vector(turn);
   }
-  const PoseAfter pose_after = [&](BodyIndex i, const Twist& v) {
-    const auto k = static_cast<std::size_t>(std::ranges::find(index, i) - index.begin());
-    return k < held_.size() ? moved(held_[k].start, v, h) : Pose{bodies.position[i], bodies.orientation[i]};
-  };
-  machine_->pose(bodies, free_, pose_after, time, h);
-  velocity_ = free_;
-  solve_rows(velocity_);
-  machine_->settle(impulse_, velocity_, pose_after);
+}
+
+/// Puts velocity_ in the place of free_. All impulses of a kick act at once, each does its work at the mean of the velocities
+/// before and after the kick: what the joints take from the latter, the work of the other forces loses.
+void Joints::allow(Slots& slots, double h, double kick, Motions& done) {
+  const std::span<const BodyIndex> index = machine_->bodies();
   for (std::size_t k = 0; k < index.size(); ++k) {
     const Slot slot = slots.slot_of[index[k]];
     Moving& moving = slots.moving[slot];
     const Body& body = held_[k];
     if (!moving.is_dynamic()) continue;
     const Vec3 push = velocity_[k].linear - free_[k].linear, turn = velocity_[k].angular - free_[k].angular;
-    // The change of the kinetic energy by the joints, to the bit: impulses times the mean of the velocities.
+    const Wrench& contact = slots.wrench[slot];
+    const Lanes& field = slots.field_force[slot];
+    const Vec3 field_torque = slots.field_torque.empty() ? Vec3{} : slots.field_torque[slot];
+    const double of_contacts = 0.5 * kick * (dot(contact.force, push) + dot(contact.torque, turn));
+    const double of_fields = 0.5 * kick * (dot(Vec3{field[0], field[1], field[2]}, push) + dot(field_torque, turn));
+    done.contact_work += of_contacts;
+    done.force_work += of_fields;
+    // The change of the kinetic energy by the joints alone, to the bit, and what they took from the work of the others.
     work_ += 0.5 / moving.inverse_mass * dot(push, velocity_[k].linear + free_[k].linear) +
-             0.5 * dot(body.inertia * turn, velocity_[k].angular + free_[k].angular);
-    const Pose pose = moved(body.start, velocity_[k], h);
-    slots.place[slot].position = pose.position;
+             0.5 * dot(body.inertia * turn, velocity_[k].angular + free_[k].angular) - of_contacts - of_fields;
     moving.linear += push;
+    const Pose pose = moved(body.start, velocity_[k], h);
+    if (h > 0.0) slots.place[slot].position = pose.position;
     if (body.turning == kNone) continue;
     Turning& turning = slots.turning[body.turning];
-    turning.orientation = pose.orientation;
+    if (h > 0.0) turning.orientation = pose.orientation;
+    turning.load.work += of_contacts;
     turning.momentum += body.inertia * turn;
     moving.angular = angular_velocity(turning.orientation, turning.inverse_inertia, turning.momentum);
   }

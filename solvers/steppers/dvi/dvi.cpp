@@ -135,7 +135,7 @@ dvi::JoinedBodies Dvi::pose_joints(Machine* machine, const BodyView& bodies, dou
   machine->locate(bodies);
   joined_.clear();
   for (const BodyIndex i : machine->bodies()) joined_.push_back({velocity_[i], angular_velocity_[i]});
-  machine->pose(bodies, joined_, motion_, time, dt);
+  machine->pose(bodies, joined_, motion_, {.time = time, .drift = dt, .kick = dt});
   return {machine->bodies(), machine->problem()};
 }
 
