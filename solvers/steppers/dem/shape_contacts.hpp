@@ -28,8 +28,8 @@ class ShapeContacts {
   /// Appends the contacts that touched in this outer step, in order.
   void report(const Slots& slots, const BodyView& bodies, bool rolls, ContactRecords& out) const;
 
-  /// Greatest number of points that a pair of bodies has had at once, at least 4 where bodies are no balls: they share the mass
-  /// of the pair, so that a box with four points bounces as a ball does.
+  /// Points that share the mass of a pair of bodies, as far as the stable step is concerned: the most that a pair has had at once;
+  /// where bodies are no balls twice as many, and at least 8.
   [[nodiscard]] std::size_t most_points() const { return most_points_; }
   void set_most_points(std::size_t points) { most_points_ = points; }
   [[nodiscard]] bool empty() const { return entries_.empty(); }
