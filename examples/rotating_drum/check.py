@@ -49,8 +49,9 @@ with Check(__file__) as check:
     if check.full:
         chart = Chart("Dynamic angle of repose", "friction", "angle [deg]")
         frictions = (0.1, 0.2, 0.3, 0.5, 0.8)
+        series = {}
         for number, stepper in enumerate(STEPPERS):
-            over = []
+            over = series[stepper] = []
             for mu in frictions:
                 run = check.run(f"{stepper}_{mu}", time_stepper__type=stepper, material__glass__friction=mu,
                                 material__dark_glass__friction=mu, simulation__end_time=4.0)
@@ -58,4 +59,7 @@ with Check(__file__) as check:
             print(f"{stepper}: " + ", ".join(f"friction {mu} {a:.1f} degrees" for mu, a in zip(frictions, over)))
             check.holds(f"{stepper}: the angle grows with friction", all(b > a for a, b in zip(over, over[1:])))
             chart.add(stepper, frictions, over, number)
+        for mu, *both in zip(frictions, *series.values()):
+            check.holds(f"friction {mu}: angles of all steppers are within 2 degrees", max(both) - min(both) < 2.0,
+                        ", ".join(f"{a:.2f}" for a in both))
         chart.save(check.folder / "angle.svg")
