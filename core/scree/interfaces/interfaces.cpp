@@ -5,6 +5,7 @@
 #include "scree/interfaces/broad_phase.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
 #include "scree/interfaces/contact_law.hpp"
+#include "scree/interfaces/contact_reader.hpp"
 #include "scree/interfaces/electric_field.hpp"
 #include "scree/interfaces/force_field.hpp"
 #include "scree/interfaces/narrow_phase.hpp"
@@ -28,6 +29,8 @@ CcpSolver::~CcpSolver() = default;
 
 ContactLaw::~ContactLaw() = default;
 void ContactLaw::setup(SceneServices&) {}
+
+ContactReader::~ContactReader() = default;
 
 ElectricField::~ElectricField() = default;
 void ElectricField::setup(SceneServices&) {}

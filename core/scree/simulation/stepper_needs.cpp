@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "scree/interfaces/contact_reader.hpp"
+
 namespace scree {
 namespace {
 
@@ -35,8 +37,8 @@ void check_narrow_phase(const Parts& parts, const CollisionPipeline& pipeline, c
   }
 }
 
-/// Refuses what a contact asks for and neither stepper nor law does.
-void check_contact(const Parts& parts, const Options& contact) {
+/// Refuses what a contact asks for and neither stepper nor law does. `values` are those of `contact`.
+void check_contact(const Parts& parts, const Options& contact, const ContactMaterial& values) {
   const bool soft = parts.stepper.plugin->needs_contact_law();
   const std::string label = soft ? parts.law->info.label() : parts.stepper.info.label();
   const bool rolls = soft ? parts.law->plugin->resists_rolling() : parts.stepper.plugin->resists_rolling();
@@ -53,6 +55,17 @@ void check_contact(const Parts& parts, const Options& contact) {
     refuse("surface_energy", "let bodies attract each other");
     refuse("cohesion_energy_density", "let bodies attract each other");
   }
+  const auto* reader = soft ? dynamic_cast<const ContactReader*>(parts.law->plugin.get()) : nullptr;
+  if (reader == nullptr) return;
+  if (const auto unread = reader->unread(values)) {
+    throw contact.error(unread->key, "is not zero, but " + label + " " + unread->sentence);
+  }
+}
+
+const ContactMaterial& values_of(const Materials& materials, const Options& pair) {
+  const std::vector<std::string>& names = pair.texts("between");
+  return materials.pair(static_cast<std::uint32_t>(materials.find(names[0])),
+                        static_cast<std::uint32_t>(materials.find(names[1])));
 }
 
 void check_joints(const Parts& parts, const SceneModel& model) {
@@ -70,8 +83,10 @@ void check_stepper_needs(const Parts& parts, const SceneModel& model, const Coll
   check_law(parts);
   check_joints(parts, model);
   check_narrow_phase(parts, pipeline, bodies);
-  for (const NamedOptions& material : model.material_options) check_contact(parts, material.options);
-  for (const Options& pair : model.pair_options) check_contact(parts, pair);
+  for (std::uint32_t m = 0; m < model.materials.size(); ++m) {
+    check_contact(parts, model.material_options[m].options, model.materials[m].contact);
+  }
+  for (const Options& pair : model.pair_options) check_contact(parts, pair, values_of(model.materials, pair));
 }
 
 }  // namespace scree

@@ -29,6 +29,22 @@ double cohesion_of_pair(Cohesion cohesion, const ContactMaterial& pair) {
   return cohesion == Cohesion::sced ? pair.cohesion_energy_density : pair.surface_energy;
 }
 
+std::optional<UnreadValue> unread_cohesion(Cohesion cohesion, const ContactMaterial& pair, bool knows_modulus) {
+  if (cohesion == Cohesion::none || cohesion_of_pair(cohesion, pair) > 0.0) return {};
+  if (cohesion == Cohesion::sced && pair.surface_energy > 0.0) {
+    return UnreadValue{
+        "surface_energy",
+        std::string{"with cohesion = \"sced\" reads cohesion_energy_density; give that, or set cohesion to "} +
+            (knows_modulus ? "\"dmt\" or \"jkr\"" : "\"dmt\"")};
+  }
+  if (cohesion != Cohesion::sced && pair.cohesion_energy_density > 0.0) {
+    const std::string word = cohesion == Cohesion::jkr ? "jkr" : "dmt";
+    return UnreadValue{"cohesion_energy_density",
+                       "with cohesion = \"" + word + "\" reads surface_energy; give that, or set cohesion to \"sced\""};
+  }
+  return {};
+}
+
 void add_cohesion(Cohesion cohesion, const PairColumn& column, const ContactBatch& __restrict batch,
                   ContactLanes& __restrict lanes) {
   if (cohesion != Cohesion::sced && cohesion != Cohesion::dmt) return;

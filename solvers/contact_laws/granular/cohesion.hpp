@@ -10,9 +10,12 @@
 // Powder Technology 65 (1991) 153, and Marshall, J. Comput. Phys. 228 (2009) 1541, eq. 43.
 #pragma once
 
+#include <optional>
+
 #include "granular/contact_lanes.hpp"
 #include "scree/config/options.hpp"
 #include "scree/config/parameter.hpp"
+#include "scree/interfaces/contact_reader.hpp"
 #include "scree/model/material.hpp"
 
 namespace scree::granular {
@@ -25,6 +28,11 @@ enum class Cohesion { none, sced, dmt, jkr };
 
 /// What the law needs of each pair: J/m3 for sced, J/m2 for dmt and jkr.
 [[nodiscard]] double cohesion_of_pair(Cohesion cohesion, const ContactMaterial& pair);
+
+/// The quantity of attraction of a pair that `cohesion` does not read, when the pair lacks the one that it reads: a scene may
+/// state both, and choose. `knows_modulus` as above.
+[[nodiscard]] std::optional<UnreadValue> unread_cohesion(Cohesion cohesion, const ContactMaterial& pair,
+                                                         bool knows_modulus);
 
 /// Takes the attraction of sced or dmt from lanes.normal, where lanes.stiffness says that surfaces act on each other.
 void add_cohesion(Cohesion cohesion, const PairColumn& column, const ContactBatch& batch, ContactLanes& lanes);

@@ -138,16 +138,13 @@ std::size_t RollingResistance::history_size() const {
   return (rolling_ == Model::elastic_plastic ? 3U : 0U) + (spinning_ == Model::elastic_plastic ? 1U : 0U);
 }
 
-std::string RollingResistance::what_is_ignored(const Materials& materials) const {
-  bool rolls = false, spins = false;
-  for (std::uint32_t a = 0; a < materials.size(); ++a) {
-    for (std::uint32_t b = a; b < materials.size(); ++b) {
-      rolls |= materials.pair(a, b).rolling_friction > 0.0;
-      spins |= materials.pair(a, b).spinning_friction > 0.0;
-    }
-  }
-  if (rolls && rolling_ == Model::none) return "rolling_friction of materials is without effect: rolling = \"none\"";
-  if (spins && spinning_ == Model::none) return "spinning_friction of materials is without effect: spinning = \"none\"";
+std::optional<UnreadValue> RollingResistance::unread(const ContactMaterial& pair) const {
+  const auto of = [](const char* key, const std::string& option) {
+    return UnreadValue{key, "with " + option + " = \"none\" does not read it; set " + option +
+                                " to \"elastic_plastic\" or \"constant_directional\", or the value to 0"};
+  };
+  if (pair.rolling_friction > 0.0 && rolling_ == Model::none) return of("rolling_friction", "rolling");
+  if (pair.spinning_friction > 0.0 && spinning_ == Model::none) return of("spinning_friction", "spinning");
   return {};
 }
 

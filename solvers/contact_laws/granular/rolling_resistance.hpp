@@ -11,10 +11,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "granular/contact_lanes.hpp"
 #include "scree/config/options.hpp"
 #include "scree/config/parameter.hpp"
+#include "scree/interfaces/contact_reader.hpp"
 #include "scree/model/material.hpp"
 
 namespace scree::granular {
@@ -30,8 +32,8 @@ class RollingResistance {
   [[nodiscard]] std::size_t history_size() const;
   /// True when torques may differ from zero.
   [[nodiscard]] bool acts() const { return rolling_ != Model::none || spinning_ != Model::none; }
-  /// What resists neither rolling nor spinning although a pair of materials asks for it: a sentence, or empty.
-  [[nodiscard]] std::string what_is_ignored(const Materials& materials) const;
+  /// The arm of rolling or of spinning that a pair has and no model reads.
+  [[nodiscard]] std::optional<UnreadValue> unread(const ContactMaterial& pair) const;
 
   /// Fills in batch.torque from lanes.load and lanes.stiffness, and moves on what is kept from history[first] on.
   void add(ContactBatch& batch, const ContactLanes& lanes, std::size_t first) const;

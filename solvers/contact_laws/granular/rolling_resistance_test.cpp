@@ -67,8 +67,19 @@ TEST(rolling_resistance, acts_on_what_it_is_asked_to_alone) {
   EXPECT_EQ(rolls.turn({0, 0, 5.0}), Vec3{});
   EXPECT_EQ(spins.turn({5.0, 0, 0}), Vec3{});
   EXPECT_FALSE(none.rolling.acts());
-  EXPECT_NE(rolls.rolling.what_is_ignored(rolls.materials).find("spinning_friction"), std::string::npos);
-  EXPECT_NE(spins.rolling.what_is_ignored(spins.materials).find("rolling_friction"), std::string::npos);
+}
+
+TEST(rolling_resistance, names_the_arm_that_no_model_reads) {
+  const One rolls{"rolling = \"constant_directional\""}, spins{"spinning = \"elastic_plastic\""},
+      both{"rolling = \"constant_directional\"\nspinning = \"elastic_plastic\""};
+  const ContactMaterial arms{.rolling_friction = kArm, .spinning_friction = kSpinArm};
+  ASSERT_TRUE(rolls.rolling.unread(arms));
+  EXPECT_EQ(rolls.rolling.unread(arms)->key, "spinning_friction");
+  ASSERT_TRUE(spins.rolling.unread(arms));
+  EXPECT_EQ(spins.rolling.unread(arms)->key, "rolling_friction");
+  EXPECT_FALSE(both.rolling.unread(arms));
+  EXPECT_FALSE(rolls.rolling.unread({.rolling_friction = kArm}));
+  EXPECT_FALSE(spins.rolling.unread({.friction = 0.5}));
 }
 
 // Ai et al.: k = 2.25 kn (mu_r R)^2, up to mu_r R N.

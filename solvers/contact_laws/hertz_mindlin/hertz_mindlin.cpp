@@ -52,8 +52,11 @@ void HertzMindlin::setup(SceneServices& services) {
   rolling_.setup(materials);
   for (std::uint32_t a = 0; a < materials.size(); ++a)
     for (std::uint32_t b = a; b < materials.size(); ++b) services.log(pairs_.describe(materials, a, b));
-  if (const std::string ignored = rolling_.what_is_ignored(materials); !ignored.empty() && rolling_.acts())
-    services.log(ignored);
+}
+
+std::optional<UnreadValue> HertzMindlin::unread(const ContactMaterial& values) const {
+  const auto turning = rolling_.unread(values);
+  return turning ? turning : granular::unread_cohesion(cohesion_, values, true);
 }
 
 std::size_t HertzMindlin::history_size() const {

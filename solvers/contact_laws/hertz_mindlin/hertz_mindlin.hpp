@@ -12,10 +12,11 @@
 #include "granular/cohesion.hpp"
 #include "granular/rolling_resistance.hpp"
 #include "scree/interfaces/contact_law.hpp"
+#include "scree/interfaces/contact_reader.hpp"
 
 namespace scree {
 
-class HertzMindlin final : public ContactLaw {
+class HertzMindlin final : public ContactLaw, public ContactReader {
  public:
   explicit HertzMindlin(const Options& options);
   static std::vector<Parameter> parameters();
@@ -26,6 +27,7 @@ class HertzMindlin final : public ContactLaw {
   [[nodiscard]] double reach(double radius) const override;
   [[nodiscard]] bool resists_rolling() const override { return rolling_.acts(); }
   [[nodiscard]] bool coheres() const override { return cohesion_ != granular::Cohesion::none; }
+  [[nodiscard]] std::optional<UnreadValue> unread(const ContactMaterial& values) const override;
   /// `rayleigh_fraction` of Rayleigh's time; a twentieth of the time of an impact where that is less.
   [[nodiscard]] double stable_step(const ContactScale& contact) const override;
   void forces(ContactBatch& batch) const override;

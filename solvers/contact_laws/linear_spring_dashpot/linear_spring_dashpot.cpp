@@ -49,8 +49,11 @@ void LinearSpringDashpot::setup(SceneServices& services) {
       if (a <= b) services.log(pairs_.describe(materials, a, b));
     }
   }
-  if (const std::string ignored = rolling_.what_is_ignored(materials); !ignored.empty() && rolling_.acts())
-    services.log(ignored);
+}
+
+std::optional<UnreadValue> LinearSpringDashpot::unread(const ContactMaterial& values) const {
+  const auto turning = rolling_.unread(values);
+  return turning ? turning : granular::unread_cohesion(cohesion_, values, false);
 }
 
 std::size_t LinearSpringDashpot::history_size() const { return granular::kTangentialHistory + rolling_.history_size(); }

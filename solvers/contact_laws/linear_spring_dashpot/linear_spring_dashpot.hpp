@@ -11,10 +11,11 @@
 #include "linear_pairs.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/contact_law.hpp"
+#include "scree/interfaces/contact_reader.hpp"
 
 namespace scree {
 
-class LinearSpringDashpot final : public ContactLaw {
+class LinearSpringDashpot final : public ContactLaw, public ContactReader {
  public:
   explicit LinearSpringDashpot(const Options& options);
   static std::vector<Parameter> parameters();
@@ -24,6 +25,7 @@ class LinearSpringDashpot final : public ContactLaw {
   [[nodiscard]] std::size_t history_size() const override;
   [[nodiscard]] bool resists_rolling() const override { return rolling_.acts(); }
   [[nodiscard]] bool coheres() const override { return cohesion_ != granular::Cohesion::none; }
+  [[nodiscard]] std::optional<UnreadValue> unread(const ContactMaterial& values) const override;
   /// A twentieth of the contact time; half of the longest stable step where that is less.
   [[nodiscard]] double stable_step(const ContactScale& contact) const override;
   void forces(ContactBatch& batch) const override;
