@@ -1,6 +1,8 @@
 // asgs: the conformance suite of CCP solvers in its orders, and what is its own.
 #include "asgs.hpp"
 
+#include <random>
+
 #include "conformance/ccp_solver_conformance.hpp"
 #include "scree/ccp/judge.hpp"
 
@@ -68,6 +70,49 @@ TEST(asgs, pairs_that_end_uphill_are_undone_and_the_solve_converges) {
     }
   }
   EXPECT_GT(undone, 0);
+}
+
+/// A body that is welded to the world, and three stops that it has left: solved by any impulses of the weld with none of the stops, and what
+/// these begin with goes to the weld without a change of any velocity, along an objective that falls until they let go.
+struct LeftStops {
+  TestingProblem problem;
+  std::vector<double> guess;
+};
+
+LeftStops left_stops(std::uint64_t seed) {
+  std::mt19937_64 random{seed};
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vec3{normal(random), normal(random), normal(random)}; };
+  LeftStops out;
+  const std::uint32_t world = out.problem.add_immovable(), body = out.problem.add_body(4.0, {0.6, 0.4, 0.6});
+  const Twist motion{vector(), vector()};  // that the weld asks for
+  const auto speed = [&](const CcpRow& row) {
+    return dot(row.b.linear, motion.linear) + dot(row.b.angular, motion.angular);
+  };
+  std::vector<CcpRow> weld = rows_at_a_point(6, false, normalized(vector()), 0.3 * vector(), 0.3 * vector(), 1.0);
+  std::vector<double> held;
+  for (const CcpRow& row : weld) held.push_back(-speed(row));
+  for (int k = 0; k < 3; ++k) {
+    const CcpRow row = k == 0 ? weld[0] : CcpRow{{}, {normalized(vector()), 0.3 * vector()}};
+    out.problem.add_block({.kind = CcpKind::nonnegative, .a = world, .b = body}, {row}, {0.02 - speed(row)});
+    out.guess.push_back(std::abs(normal(random)));
+  }
+  out.problem.add_block({.kind = CcpKind::free, .a = world, .b = body}, weld, held);
+  for (std::size_t k = 0; k < weld.size(); ++k) out.guess.push_back(normal(random));
+  return out;
+}
+
+// The minimum over a plane then lies nowhere: to go far would leave impulses so large that nothing is known of velocities any more.
+TEST(asgs, impulses_that_change_no_velocity_are_not_followed_without_end) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    LeftStops stops = left_stops(seed);
+    SolveContext context;
+    context.tolerance = 1e-10;
+    context.max_iterations = 20000;
+    Asgs solver{AsgsOptions{}};
+    EXPECT_EQ(solver.solve(stops.problem.view(), context, stops.guess).status, SolveStatus::converged) << seed;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(stops.guess[k], 0.0, 1e-9) << seed;
+  }
 }
 
 /// A thousand columns of two equal spheres that stand on the floor, and one of ten.

@@ -7,6 +7,9 @@ namespace {
 
 /// Directions closer to parallel than this share of their lengths' square span no plane.
 constexpr double kParallel = 1e-12;
+/// A step that is so many times a pair of sweeps goes along impulses that change no velocity: the objective falls without end there, until
+/// a cone says stop. Impulses of that size would leave nothing but rounding of all others.
+constexpr double kFarthest = 1e8;
 
 /// A body's share in products of the masses' norm.
 class Weight {
@@ -44,7 +47,7 @@ bool PlaneStep::choose(const Products& products, double linear_z, double linear_
     a = dd > 0.0 ? -along_d / dd : 0.0;
     b = 0.0;
   }
-  return a >= 1.0 && std::isfinite(a) && std::isfinite(b);
+  return a >= 1.0 && a <= kFarthest && std::isfinite(b);
 }
 
 void ConjugateSteps::start(std::span<const sweep::Body> bodies, double linear) {
