@@ -12,7 +12,10 @@ def mean(values):
 
 
 with Check(__file__) as check:
-    settings = {"simulation__end_time": 6.0} if check.full else {}
+    # Of slow impacts dvi lets none bounce; so that both have one law, dem gets none that bounce either (README).
+    settings = {"material__glass__restitution": 0.05, "material__dark_glass__restitution": 0.05}
+    if check.full:
+        settings["simulation__end_time"] = 6.0
     torques = []
     for stepper in STEPPERS:
         run = check.run(stepper, time_stepper__type=stepper, **settings)
@@ -30,5 +33,6 @@ with Check(__file__) as check:
         # 900 beads of 0.164 g.
         steps = run.table("steps.csv")
         check.holds(f"{stepper}: no bead is lost", steps["bodies"][-1] == steps["bodies"][0] == 900)
-    # A tenth is the steppers' different restitution of slow impacts (README); a run's mean scatters by one or two hundredths.
-    check.holds("torques of all steppers are within 15 % of each other", max(torques) < 1.15 * min(torques))
+    # The two means scatter by 0.03 and 0.02.
+    check.holds("torques of all steppers are within 15 % of each other", max(torques) < 1.15 * min(torques),
+                f"{max(torques) / min(torques):.3f}")

@@ -62,8 +62,10 @@ def study(program, folder, steppers, aspects=STUDY):
     found = {}
     print(f"{'stepper':8} {'a':>6} {'run-out':>8} {'law':>6} {'ratio':>6}")
     for number, stepper in enumerate(steppers):
-        found[stepper] = [mean(program, folder, stepper, aspect) for aspect in aspects]
-        for a, way in found[stepper]:
+        found[stepper] = []
+        for aspect in aspects:
+            a, way = mean(program, folder, stepper, aspect)
+            found[stepper].append((a, way))
             print(f"{stepper:8} {a:6.2f} {way:8.2f} {law(a):6.2f} {way / law(a):6.2f}", flush=True)
         chart.add(stepper, *zip(*found[stepper]), number)
     ratios = [0.5 * 1.05**k for k in range(54)]
