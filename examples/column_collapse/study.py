@@ -17,7 +17,7 @@ SCENE = pathlib.Path(__file__).resolve().parent / "scene.toml"
 LENGTH, WIDTH, GRAIN, LIFTED = 0.04, 0.012, 4e-3, 0.3  # L, distance of the long walls, mean grain [m]; start of the gate [s]
 PER_ASPECT = 250                                       # grains that make a column about as high as long
 SEEDS = (1, 2, 3)
-STUDY = (0.7, 1.0, 1.5, 3.0, 4.0, 6.0)
+STUDY = (0.7, 1.0, 1.5, 3.0, 4.5)
 
 
 def law(a):
