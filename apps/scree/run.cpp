@@ -5,6 +5,7 @@
 #include "say.hpp"
 #include "scree/interfaces/build_fingerprint.hpp"
 #include "scree/model/body_store.hpp"
+#include "scree/results/result_claims.hpp"
 
 namespace scree {
 namespace {
@@ -30,13 +31,13 @@ RunRecord describe(const Simulation& simulation, const RunOptions& options) {
 Run::Run(Simulation& simulation, const RunOptions& options)
     : simulation_{simulation},
       options_{options},
-      step_log_{options.output / "steps.csv", phase_names()},
-      removed_log_{options.output / "removed.csv", simulation.materials()},
+      step_log_{options.output / kStepsFile, phase_names()},
+      removed_log_{options.output / kRemovedFile, simulation.materials()},
       progress_{options.quiet, simulation.time(), simulation.end_time()},
       recording_{simulation, options.record_ccp, options.output, "--record-ccp"},
       last_checkpoint_{simulation.time()},
       record_{describe(simulation, options)} {
-  if (!simulation.machine().empty()) joint_log_.emplace(options.output / "joints.csv");
+  if (!simulation.machine().empty()) joint_log_.emplace(options.output / kJointsFile);
 }
 
 int Run::to_the_end() {
@@ -59,7 +60,7 @@ int Run::to_the_end() {
     progress_.end_line();
     if (!finish_failed(failure)) throw;
     throw Error{failure.kind(), fmt::format("{}; the last good state, at {:.6g} s, is in {}", failure.what(),
-                                            simulation_.time(), (options_.output / "checkpoint.h5").string())};
+                                            simulation_.time(), (options_.output / kCheckpointFile).string())};
   }
 }
 
@@ -101,7 +102,7 @@ void Run::report_recording() const {
 }
 
 void Run::save_checkpoint() {
-  simulation_.save(options_.output / "checkpoint.h5");
+  simulation_.save(options_.output / kCheckpointFile);
   last_checkpoint_ = simulation_.time();
 }
 
@@ -153,7 +154,7 @@ void Run::write_record(int exit_code, const std::string& outcome) {
   }
   record_.tables = {balance_table(simulation_)};
   for (ReportTable& table : simulation_.report()) record_.tables.push_back(std::move(table));
-  write_run_record(record_, options_.output / "run.json");
+  write_run_record(record_, options_.output / kRunFile);
 }
 
 void Run::print_end(const std::string& outcome) const {

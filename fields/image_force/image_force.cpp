@@ -115,7 +115,7 @@ void ImageForce::update_contact_age(const BodyView& bodies, const ContactView& c
   touches_roll_.assign(bodies.size(), 0);
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& contact = contacts.contact[k];
-    if (!(contacts.impulse[k].x > 0.0)) continue;
+    if (contacts.impulse[k] == Vec3{}) continue;  // a contact that pulls touches too
     if (bodies.id[contact.a] == roll_id_) touches_roll_[contact.b] = 1;
     if (bodies.id[contact.b] == roll_id_) touches_roll_[contact.a] = 1;
   }

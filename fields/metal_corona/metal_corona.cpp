@@ -112,8 +112,8 @@ void MetalCorona::collect_pushes(const BodyView& bodies, const ContactView& cont
   touching_.clear();
   if (push_.size() < bodies.size()) push_.resize(bodies.size());
   for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const double impulse = contacts.impulse[k].x;
-    if (!(impulse > 0.0)) continue;
+    const double impulse = std::abs(contacts.impulse[k].x);  // cohesion pulls, and touches too
+    if (impulse == 0.0) continue;
     const Contact& contact = contacts.contact[k];
     const bool a_grounded = grounded(contact.a);
     if (a_grounded == grounded(contact.b)) continue;

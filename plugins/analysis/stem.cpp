@@ -1,12 +1,16 @@
 #include "analysis/stem.hpp"
 
 #include "scree/interfaces/scene_services.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 
 namespace scree {
 
-Stem::Stem(std::string_view type, const SceneServices& services, const std::filesystem::path& results) {
-  if (!results.empty()) stem_ = results / result_stem(type, type, services.part_name());
+Stem::Stem(std::string_view type, SceneServices& services, const std::filesystem::path& results,
+           const std::vector<std::string>& endings) {
+  const std::string stem = result_stem(type, type, services.part_name());
+  claim_results(services, stem, endings);
+  if (!results.empty()) stem_ = results / stem;
 }
 
 std::filesystem::path Stem::table(std::string_view part) const {

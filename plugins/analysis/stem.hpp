@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace scree {
 
@@ -13,7 +14,9 @@ class SceneServices;
 class Stem {
  public:
   Stem() = default;
-  Stem(std::string_view type, const SceneServices& services, const std::filesystem::path& results);
+  /// Claims the stem with each of the endings, of all files that the observer writes (scree/results/result_claims.hpp).
+  Stem(std::string_view type, SceneServices& services, const std::filesystem::path& results,
+       const std::vector<std::string>& endings);
 
   [[nodiscard]] bool writes() const { return !stem_.empty(); }
   /// The table STEM.csv, or STEM_PART.csv; an empty path when nothing is written.

@@ -33,7 +33,10 @@ class ObserverTest : public ::testing::Test {
     for (const char* name : {"glass", "steel"}) services.materials().add({name, 1000.0, {}, {}});
     services.step = 0.01;
   }
-  ~ObserverTest() override { std::filesystem::remove_all(folder); }
+  ~ObserverTest() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    std::filesystem::remove_all(folder);
+  }
 
  protected:
   [[nodiscard]] std::unique_ptr<Subject> make(const std::string& toml, const std::string& sub_folder = ".") {

@@ -237,6 +237,7 @@ class SoftContacts(Studies, unittest.TestCase):
         law = text[text.index("[contact_law]"):text.index("[broad_phase]")]
         text = text.replace(law, '[contact_law]\ntype = "hertz_mindlin"\ncohesion = "jkr"\n')
         stone = 'density = "2500 kg/m3"\nyoung_modulus = "10 MPa"\nsurface_energy = "2 J/m2"'
+        text += '[[observer]]\ntype = "contacts"\n[[observer]]\ntype = "track"\n'
         scene.write_text(text.replace('density = "2500 kg/m3"', stone).replace('[[force_field]]\ntype = "gravity"\n', ""))
         self.run_scene(scene, "neck")
         series = self.table("neck", "collision_energy_series.csv")
@@ -246,6 +247,11 @@ class SoftContacts(Studies, unittest.TestCase):
         self.assertGreater(loss, 0.01 * energy)
         self.near(self.dissipated("neck"), loss, 0.01 * loss)
         self.near(0.01 * sum(float(row["normal_energy_rate"]) for row in series), energy, 1e-9 * energy)
+        # The table of contacts has those that pull: only with them its impulses are all that changed the ball's velocity.
+        pushes = [float(row["impulse_z"]) for row in self.table("neck", "contacts.csv")]
+        self.assertLess(min(pushes), 0.0)
+        gained = BALL * (float(self.table("neck", "track.csv")[-1]["vz"]) + 0.1)
+        self.near(sum(pushes), gained, 1e-9 * gained)
 
 
 if __name__ == "__main__":

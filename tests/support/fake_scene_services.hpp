@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -19,11 +20,12 @@
 #include "scree/model/material.hpp"
 #include "scree/model/shape_set.hpp"
 #include "scree/parallel/executor.hpp"
+#include "scree/results/result_claims.hpp"
 
 namespace scree::test {
 
 /// Scene services over plain maps. What was declared, provided and logged can be looked at afterwards.
-class FakeSceneServices final : public SceneServices {
+class FakeSceneServices final : public SceneServices, public ResultRegistry {
  public:
   explicit FakeSceneServices(int threads = 1) : executor_{threads} {}
 
@@ -70,12 +72,23 @@ class FakeSceneServices final : public SceneServices {
   [[nodiscard]] double time_step() const override { return step; }
   [[nodiscard]] double end_time() const override { return end; }
   void log(std::string_view line) const override { log_.emplace_back(line); }
+  void claim_result(const std::string& file) override { claims_.claim("the part under test", file); }
 
   /// The columns that parts declared; the bodies of a test share them.
   [[nodiscard]] Attributes& attributes() { return attributes_; }
   [[nodiscard]] const std::vector<std::string>& log_lines() const { return log_; }
   [[nodiscard]] bool provides(const std::string& column) const { return contains(provided_, column); }
   [[nodiscard]] bool requires_column(const std::string& column) const { return contains(required_, column); }
+
+  /// Files in `folder` and below that the part under test has not claimed at setup.
+  [[nodiscard]] std::vector<std::string> unclaimed_in(const std::filesystem::path& folder) const {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator{folder}) {
+      const std::string name = entry.path().filename().string();
+      if (entry.is_regular_file() && !claims_.has(name)) files.push_back(name);
+    }
+    return files;
+  }
 
   double step = 1e-3;  ///< outer time step [s]
   double end = 1.0;    ///< [s]
@@ -100,6 +113,7 @@ class FakeSceneServices final : public SceneServices {
   Materials materials_;
   ShapeSet shapes_;
   Attributes attributes_;
+  ResultClaims claims_;
   std::vector<std::string> provided_;
   std::vector<std::string> required_;
   mutable std::vector<std::string> log_;

@@ -171,6 +171,24 @@ RandomStream SetupServices::random_stream(std::string_view purpose) const {
   return {seed, part_->kind + ":" + part_->name + "/" + std::string{purpose}};
 }
 
+void SetupServices::claim_result(const std::string& file) {
+  // Only a name that the scene wrote itself has a place of its own, and faults.
+  const Options* options = nullptr;
+  for (const Part<Observer>& observer : context_.parts.observers) {
+    const Options::Entry* entry = observer.options.find("file");
+    const auto* text = entry == nullptr ? nullptr : std::get_if<std::string>(&entry->value);
+    if (&observer.info == part_ && text != nullptr && *text == file) options = &observer.options;
+  }
+  const auto refuse = [&](const std::string& sentence) {
+    if (options != nullptr) throw options->error("file", "is '" + file + "', " + sentence + "; give another `file`");
+    throw Error{ErrorKind::usage, part_->where,
+                part_->label() + " would write the file '" + file + "', " + sentence + "; give it another `name`"};
+  };
+  if (const std::string fault = ResultClaims::fault_of(file); !fault.empty()) refuse("which " + fault);
+  const std::string other = claims_.claim(part_->label(), file);
+  if (!other.empty()) refuse("which " + other + " writes too");
+}
+
 void SetupServices::log(std::string_view line) const {
   context_.log.push_back(part_->label() + ": " + std::string{line});
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scree/interfaces/scene_services.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/simulation/parts.hpp"
 #include "scree/simulation/scene_model.hpp"
 
@@ -25,7 +26,7 @@ struct SetupContext {
 };
 
 /// Answers one part at a time.
-class SetupServices final : public SceneServices {
+class SetupServices final : public SceneServices, public ResultRegistry {
  public:
   explicit SetupServices(const SetupContext& context) : context_{context} {}
 
@@ -57,6 +58,7 @@ class SetupServices final : public SceneServices {
   [[nodiscard]] double end_time() const override { return context_.end_time; }
   void log(std::string_view line) const override;
   [[nodiscard]] std::vector<std::string> body_names() const override;
+  void claim_result(const std::string& file) override;
 
  private:
   // Every quantity in an `attributes` table has the dimension of its column.
@@ -72,6 +74,7 @@ class SetupServices final : public SceneServices {
   };
   SetupContext context_;
   const PartInfo* part_ = nullptr;
+  ResultClaims claims_;
   std::vector<Reader> readers_;
   std::vector<std::string> used_;  // columns that a part reads, or writes while the simulation runs
   bool shows_all_ = false;         // a part shows every column

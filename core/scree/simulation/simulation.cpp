@@ -68,10 +68,12 @@ void Simulation::State::check_motion() const {
   if (all_sound) return;
   std::size_t i = 0;
   while (is_sound(i)) ++i;
-  throw Error{ErrorKind::diverged,
-              "body " + std::to_string(view.id[i]) + " moves at " + std::to_string(norm(view.velocity[i])) +
-                  " m/s at t = " + std::to_string(time() + time_step) + " s, above simulation.max_speed = " +
-                  std::to_string(max_speed) + " m/s; take a smaller time_step, or look at the forces on that body"};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                " moves at %.4g m/s at t = %.6g s, above simulation.max_speed = %.4g m/s; take a smaller time_step, or "
+                "look at the forces on that body",
+                norm(view.velocity[i]), time() + time_step, max_speed);
+  throw Error{ErrorKind::diverged, "body " + std::to_string(view.id[i]) + text};
 }
 
 void Simulation::State::advance_fields(double end) {

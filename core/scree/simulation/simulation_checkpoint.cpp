@@ -6,6 +6,7 @@
 #include "scree/ccp/ccp_file.hpp"
 #include "scree/config/resolved.hpp"
 #include "scree/results/run_record.hpp"
+#include "scree/simulation/kept_options.hpp"
 #include "scree/simulation/scene_machine.hpp"
 #include "scree/simulation/simulation_state.hpp"
 #include "scree/state/hdf5_checkpoint.hpp"
@@ -189,13 +190,13 @@ void Simulation::State::save_to(StateWriter& out) const {
   model.shapes.save(*out.group("shapes"));
   bodies.save(*out.group("bodies"));
   machine->save(*out.group("machine"));
-  parts.for_each([&](const PartInfo& info, const Options&, Plugin& plugin) {
+  parts.for_each([&](const PartInfo& info, const Options& options, Plugin& plugin) {
     // A step that failed leaves the stepper's memory in doubt: the continuation starts it afresh.
     if (failed && info.kind == TimeStepper::kKind) return;
     const auto group = out.group(group_name(info));
     group->write("type", std::string_view{info.type});
     group->write("version", static_cast<std::uint64_t>(plugin.version()));
-    plugin.save(*group);
+    info.kind == Observer::kKind ? save_observer(options, plugin, *group) : plugin.save(*group);
   });
 }
 
@@ -219,7 +220,7 @@ void Simulation::State::restore_from(const StateReader& in) {
   bodies.load(*in.group("bodies"));
   machine->load(*in.group("machine"));
   admit_parted(model, *machine, parted, pipeline->filter());
-  parts.for_each([&](const PartInfo& info, const Options&, Plugin& plugin) {
+  parts.for_each([&](const PartInfo& info, const Options& options, Plugin& plugin) {
     if (!in.has(group_name(info))) return;  // new since the checkpoint, an observer say: it starts afresh
     const auto group = in.group(group_name(info));
     if (group->text("type") != info.type || group->integer("version") != static_cast<std::uint64_t>(plugin.version())) {
@@ -227,6 +228,7 @@ void Simulation::State::restore_from(const StateReader& in) {
                                         "' version " + std::to_string(group->integer("version")) +
                                         " in the checkpoint; use the version that wrote it"};
     }
+    if (info.kind == Observer::kKind) check_kept_options(info, options, *group);
     guarded(info, ErrorKind::io, [&] { plugin.load(*group); });
   });
 }

@@ -146,6 +146,22 @@ TEST(Simulation, refuses_the_checkpoint_of_another_scene) {
   std::filesystem::remove(file);
 }
 
+TEST(Simulation, a_body_that_flies_off_is_told_in_a_line_of_text) {
+  const Catalog catalog;
+  const SceneDocument document = SceneDocument::parse(
+      scene("[[force_field]]\ntype = 'push'\nacceleration = 1e150\n[[body]]\nshape = 'ball'\nmaterial = 'stone'\n"
+            "motion = 'dynamic'\n"));
+  Simulation simulation{document, catalog, {}};
+  try {
+    simulation.step();
+    FAIL() << "1e149 m/s went unnoticed";
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("body 0 moves at 1e+149 m/s at t = 0.1 s"), std::string::npos) << text;
+    EXPECT_LT(text.size(), 200U) << text;
+  }
+}
+
 TEST(Simulation, names_the_field_and_the_body_of_a_nan_and_keeps_the_last_good_state) {
   const Catalog catalog;
   const SceneDocument document =

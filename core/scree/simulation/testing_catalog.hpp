@@ -17,6 +17,7 @@
 #include "scree/interfaces/sink.hpp"
 #include "scree/interfaces/source.hpp"
 #include "scree/interfaces/time_stepper.hpp"
+#include "scree/simulation/testing_observers.hpp"
 #include "scree/state/state_io.hpp"
 
 namespace scree::testing_parts {
@@ -145,14 +146,6 @@ class Gate final : public Sink {
   double limit_;  // [m]
 };
 
-/// Writes a file, so it says.
-class Writer final : public Observer {
- public:
-  explicit Writer(const Options&) {}
-  static std::vector<Parameter> parameters() { return {Parameter::text("file", "name").by_default("")}; }
-  void observe(const Observation&, Attributes&) override {}
-};
-
 /// Finds the parts above by name.
 class Catalog final : public PluginCatalog {
  public:
@@ -166,6 +159,7 @@ class Catalog final : public PluginCatalog {
     list_.add<Source, Drip>("drip", "");
     list_.add<Sink, Gate>("gate", "", Gate::parameters());
     list_.add<Observer, Writer>("writer", "", Writer::parameters());
+    list_.add<Observer, Counter>("counter", "", Counter::parameters());
   }
   [[nodiscard]] PluginList& list() { return list_; }
   [[nodiscard]] const PluginEntry& entry(std::string_view kind, std::string_view name,

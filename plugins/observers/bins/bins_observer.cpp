@@ -9,6 +9,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
@@ -87,6 +88,7 @@ std::vector<Parameter> BinsObserver::parameters() {
 
 void BinsObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   name_ = lower_snake(services.part_name().empty() ? "bins" : services.part_name());
+  claim_results(services, "bins_" + name_, {"_series.csv", ".csv", "_ledger.csv", ".svg", ".png"});
   results_ = results;
   setup_categories(services);
   setup_plan();

@@ -100,7 +100,10 @@ class BinsTest : public testing::Test {
     for (const char* name : {"copper", "plastic", "mixed"}) services.materials().add({name, 1000.0, {}, {}});
     services.step = 0.1;
   }
-  void TearDown() override { fs::remove_all(folder); }
+  void TearDown() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    fs::remove_all(folder);
+  }
 
   [[nodiscard]] std::unique_ptr<BinsObserver> make(const std::string& more = "", bool writes = true) {
     auto observer = std::make_unique<BinsObserver>(options_from_text(kBins + more, BinsObserver::parameters()));

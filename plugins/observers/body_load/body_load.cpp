@@ -8,6 +8,7 @@
 
 #include "plot/figure.hpp"
 #include "scree/interfaces/plugin_library.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
@@ -53,6 +54,8 @@ void BodyLoad::setup(SceneServices& services, const std::filesystem::path& resul
   motions_.resize(followed_.size());
   every_ = steps_between(interval_, services.time_step());
   stem_ = result_stem("body_load", "body_load", services.part_name());
+  claim_results(services, stem_,
+                {".csv", "_force.svg", "_force.png", "_torque.svg", "_torque.png", "_power.svg", "_power.png"});
   results_ = results;
   table_ = SeriesTable{columns(followed_.names())};
   if (!results.empty()) table_.open(results / (stem_ + ".csv"));

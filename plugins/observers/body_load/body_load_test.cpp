@@ -32,7 +32,10 @@ class BodyLoadTest : public ::testing::Test {
     bodies.add_immovable(0, {0, 0, 0});
     bodies.add_sphere(1, {0, 0, 0.1}, 0.1, 1000.0);
   }
-  void TearDown() override { fs::remove_all(folder); }
+  void TearDown() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    fs::remove_all(folder);
+  }
 
   [[nodiscard]] BodyLoad make(const std::string& options) {
     return BodyLoad{options_from_text(options, BodyLoad::parameters())};

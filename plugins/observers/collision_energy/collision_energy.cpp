@@ -9,6 +9,7 @@
 #include "plot/figure.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
@@ -66,6 +67,7 @@ void CollisionEnergy::setup(SceneServices& services, const std::filesystem::path
                                                          static_cast<int>(options_.integer("bins_per_decade"))}};
   every_ = steps_between(options_.number("interval"), services.time_step());
   stem_ = result_stem("collision_energy", "collision_energy", services.part_name());
+  claim_results(services, stem_, {"_series.csv", ".csv", ".svg", ".png"});
   results_ = results;
   series_ = SeriesTable{{{"time", "s"},
                          {"collisions"},

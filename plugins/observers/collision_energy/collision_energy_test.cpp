@@ -33,7 +33,10 @@ class CollisionEnergyTest : public ::testing::Test {
       bodies.material.back() = static_cast<std::uint32_t>(k);
     }
   }
-  void TearDown() override { fs::remove_all(folder); }
+  void TearDown() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    fs::remove_all(folder);
+  }
 
   [[nodiscard]] std::unique_ptr<CollisionEnergy> make(const std::string& options, const fs::path& results = {}) {
     auto part = std::make_unique<CollisionEnergy>(options_from_text(options, CollisionEnergy::parameters()));

@@ -9,6 +9,7 @@
 #include "plot/figure.hpp"
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
@@ -95,6 +96,9 @@ void ContactNetwork::setup(SceneServices& services, const std::filesystem::path&
     file_every_ = steps_between(options_.number("file_interval"), services.time_step());
   }
   stem_ = result_stem("contact_network", "contact_network", services.part_name());
+  claim_results(services, stem_,
+                {".csv", "_coordination.csv", "_forces.csv", ".svg", ".png", "_forces.svg", "_forces.png"});
+  if (file_every_ > 0) claim_results(services, stem_, {"_*.vtp", ".pvd"});
   results_ = results;
   table_ = SeriesTable{columns()};
   if (!results.empty()) table_.open(results / (stem_ + ".csv"));

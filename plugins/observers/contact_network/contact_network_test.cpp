@@ -36,7 +36,10 @@ class ContactNetworkTest : public ::testing::Test {
     }
     velocity.resize(3);
   }
-  void TearDown() override { fs::remove_all(folder); }
+  void TearDown() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    fs::remove_all(folder);
+  }
 
   [[nodiscard]] std::unique_ptr<ContactNetwork> make(const std::string& options, const fs::path& results) {
     auto part = std::make_unique<ContactNetwork>(options_from_text(options, ContactNetwork::parameters()));

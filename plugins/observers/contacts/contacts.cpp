@@ -7,6 +7,7 @@
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/math/contact_frame.hpp"
 #include "scree/results/csv.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 
 namespace scree {
@@ -24,14 +25,15 @@ class Contacts final : public Observer {
                 .at_least(0.0)
                 .by_default(0.0),
             Parameter::boolean("loaded_only", "leave out contacts without an impulse").by_default(true),
-            Parameter::text("file",
-                            "name of the table in the result folder; contacts.csv or contacts_NAME.csv when left out")
+            Parameter::text(
+                "file", "name of the table, in the folder of results; contacts.csv or contacts_NAME.csv when left out")
                 .by_default("")};
   }
 
   void setup(SceneServices& services, const std::filesystem::path& results) override {
     every_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(interval_ / services.time_step())));
     if (file_.empty()) file_ = result_stem("contacts", "contacts", services.part_name()) + ".csv";
+    claim_results(services, file_, {""});
     if (results.empty()) return;
     table_.emplace(results / file_, std::vector<CsvColumn>{{"time", "s"},
                                                            {"body_a", ""},
@@ -56,7 +58,7 @@ class Contacts final : public Observer {
   void observe(const Observation& now, Attributes&) override {
     if (!table_ || now.step % every_ != 0) return;
     for (std::size_t c = 0; c < now.contacts.size(); ++c) {
-      if (!loaded_only_ || now.contacts.impulse[c].x > 0.0) add_row(now, c);
+      if (!loaded_only_ || now.contacts.impulse[c] != Vec3{}) add_row(now, c);
     }
   }
 

@@ -67,7 +67,7 @@ void ContinuumObserver::setup(SceneServices& services, const std::filesystem::pa
   executor_ = &services.executor();
   results_ = results;
   schedule_ = Schedule{options_, services.time_step()};
-  stem_ = Stem{"continuum", services, results};
+  stem_ = Stem{"continuum", services, results, {"_*.vti", ".pvd", "_profile.csv", "_slice.svg", "_slice.png"}};
   grid_ = CellGrid{options_, services};
   if (options_.has("slice_place")) {
     const int normal = axis_of(options_.text("slice_normal"));

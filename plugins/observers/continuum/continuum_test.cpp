@@ -44,6 +44,7 @@ TEST_F(ContinuumTest, writes_fields_that_vtk_reads) {
       "assert arrays.GetArray('density').GetValue(cell) > 100\n"
       "assert abs(arrays.GetArray('velocity').GetTuple(cell)[0] - 0.25) < 0.05\n"
       "assert arrays.GetArray('density').GetValue(8 * 16 * 10 - 1) == 0\n";
+  services.claim_result("read.py");
   std::ofstream{folder / "read.py"} << script;
   EXPECT_TRUE(
       runs("/usr/bin/python3 " + (folder / "read.py").string() + " " + (folder / "continuum_00000003.vti").string()));

@@ -40,7 +40,9 @@ std::vector<Parameter> MassFlowObserver::parameters() {
 void MassFlowObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   frame_ = Frame{options_, services};
   schedule_ = Schedule{options_, services.time_step()};
-  stem_ = Stem{"mass_flow", services, results};
+  std::vector<std::string> endings{".csv", ".svg", ".png", "_total.svg", "_total.png"};
+  if (options_.boolean("crossings")) endings.emplace_back("_crossings.csv");
+  stem_ = Stem{"mass_flow", services, results, endings};
   if (options_.number("fit_from") >= services.end_time()) {
     services.log(
         fmt::format("mass_flow: fit_from = {:g} s is not before the end of the run at {:g} s: no constant rate",
@@ -145,11 +147,12 @@ FlowRate MassFlowObserver::rate_of(const std::string& column) const {
                        static_cast<std::size_t>(options_.integer("blocks")), options_.number("confidence"));
 }
 
-/// A sentence when no interval lies within the window of the fit; else nothing.
+/// A sentence when fewer than two intervals lie within the window of the fit, which leaves its error open; else nothing.
 std::string MassFlowObserver::why_no_rate() const {
-  if (series_.rows() == 0 || rate_of("mass_rate").blocks > 0) return {};
-  return fmt::format("no constant rate: no interval from fit_from = {:g} s on lies within the window and the run",
-                     options_.number("fit_from"));
+  const std::size_t blocks = series_.rows() == 0 ? 2 : rate_of("mass_rate").blocks;
+  if (blocks >= 2) return {};
+  return fmt::format("no constant rate: {} interval from fit_from = {:g} s on lies within the window and the run",
+                     blocks == 0 ? "no" : "a single", options_.number("fit_from"));
 }
 
 plot::Figure MassFlowObserver::rates() const {
@@ -164,7 +167,7 @@ plot::Figure MassFlowObserver::rates() const {
       {"over an interval", plot::SeriesStyle::line, std::move(middle), series_.column("mass_rate")});
   const FlowRate fit = rate_of("mass_rate");
   figure.note = why_no_rate();
-  if (!std::isfinite(fit.rate.value)) return figure;
+  if (!std::isfinite(fit.rate.error)) return figure;
   figure.note =
       fmt::format("{:.4g} +- {:.2g} kg/s from {:g} s to {:g} s ({:g} % confidence, {} blocks)", fit.rate.value,
                   fit.rate.error, fit.from, fit.to, 100.0 * options_.number("confidence"), fit.blocks);
@@ -214,7 +217,7 @@ std::vector<ReportTable> MassFlowObserver::report() const {
   table.header = {"material",    "forward",       "backward",   "forward [kg]", "backward [kg]",
                   "rate [kg/s]", "drift [kg/s2]", "window [s]", "blocks"};
   const auto plus_minus = [](const Estimate& estimate) {
-    return std::isfinite(estimate.value) ? fmt::format("{:.4g} +- {:.2g}", estimate.value, estimate.error) : "none";
+    return std::isfinite(estimate.error) ? fmt::format("{:.4g} +- {:.2g}", estimate.value, estimate.error) : "none";
   };
   const auto add = [&](const std::string& name, const Passed& passed, const std::string& column) {
     const FlowRate fit = rate_of(column);

@@ -179,6 +179,19 @@ TEST_F(MassFlowTest, says_why_there_is_no_constant_rate) {
   EXPECT_EQ(table.rows.back()[7], "none");
 }
 
+// The error of a mean needs two values.
+TEST_F(MassFlowTest, a_single_interval_gives_no_constant_rate) {
+  for (const std::uint64_t steps : {10U, 20U}) {  // ten an interval
+    const auto observer = make(kFalling, "");
+    for (std::uint64_t step = 1; step <= steps; ++step) observer->observe(at(step), services.attributes());
+    observer->finish(at(steps));
+    const ReportTable table = observer->report().front();
+    EXPECT_EQ(table.title.find("no constant rate: a single interval") != std::string::npos, steps == 10) << table.title;
+    EXPECT_EQ(table.rows.back()[5], steps == 10 ? "none" : "0 +- 0");
+    for (const std::string& cell : table.rows.back()) EXPECT_EQ(cell.find("nan"), std::string::npos) << cell;
+  }
+}
+
 TEST_F(MassFlowTest, refuses_a_window_that_ends_before_it_begins) {
   EXPECT_NE(refusal(std::string{kFalling} + "fit_from = 1.0\nfit_to = 0.5").find("later than fit_from"),
             std::string::npos);

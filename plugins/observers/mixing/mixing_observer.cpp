@@ -78,7 +78,7 @@ void MixingObserver::setup(SceneServices& services, const std::filesystem::path&
   neighbours_wanted_ = neighbours.type() != "none";
   if (neighbours.type() == "nearest") neighbourhood_ = {static_cast<std::size_t>(neighbours.integer("count")), 0.0};
   if (neighbours.type() == "within") neighbourhood_ = {0, neighbours.number("reach")};
-  stem_ = Stem{"mixing", services, results};
+  stem_ = Stem{"mixing", services, results, {".csv", ".svg", ".png"}};
   series_.open(stem_.table(), columns());
 }
 

@@ -9,6 +9,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/results/output_file.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 
 namespace scree {
@@ -114,6 +115,11 @@ std::vector<Parameter> PictureObserver::parameters() {
 void PictureObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   name_ = services.part_name().empty() ? "scene" : services.part_name();
   stem_ = "picture_" + lower_snake(name_);
+  for (const char* ending : {".png", ".svg"}) {
+    if (ending[1] == 's' && !svg_) continue;
+    if (interval_) claim_results(services, stem_ + "_*", {ending});
+    if (at_end_) claim_results(services, stem_, {ending});
+  }
   results_ = results;
   view_.cut.setup(options_, services);
   words_.emplace(SceneWords{services.shapes(), services.materials(),

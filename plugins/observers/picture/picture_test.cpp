@@ -42,7 +42,10 @@ class PictureObserverTest : public testing::Test {
       bodies.material.back() = i == 0 ? 2 : 1;
     }
   }
-  void TearDown() override { fs::remove_all(folder); }
+  void TearDown() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    fs::remove_all(folder);
+  }
 
   void add_shape(ShapeKind kind, const Vec3& size) {
     PrimitiveData data;

@@ -30,7 +30,7 @@ std::vector<Parameter> ResidenceObserver::parameters() {
 
 void ResidenceObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   schedule_ = Schedule{options_, services.time_step()};
-  stem_ = Stem{"residence_time", services, results};
+  stem_ = Stem{"residence_time", services, results, {".csv", "_stays.csv", "_distribution.csv", ".svg", ".png"}};
   materials_ = services.materials().names();
   stays_ = std::make_unique<Stays>(Region{options_, services}, options_.boolean("count_initial"));
   hold_up_.open(stem_.table(),

@@ -37,7 +37,8 @@ std::vector<Parameter> SegregationObserver::parameters() {
 void SegregationObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   region_ = Region{options_, services};
   schedule_ = Schedule{options_, services.time_step()};
-  stem_ = Stem{"segregation", services, results};
+  stem_ =
+      Stem{"segregation", services, results, {".csv", "_profile.csv", ".svg", ".png", "_profile.svg", "_profile.png"}};
   classes_ = TwoClasses{options_, services};
   materials_ = GrainMaterials{services.materials()};
   bins_ = std::make_unique<AxisProfile>(options_.number("from"), options_.number("to"),

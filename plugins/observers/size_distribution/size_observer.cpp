@@ -38,7 +38,10 @@ std::vector<Parameter> SizeObserver::parameters() {
 void SizeObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   region_ = Region{options_, services};
   schedule_ = Schedule{options_, services.time_step()};
-  stem_ = Stem{"size_distribution", services, results};
+  stem_ = Stem{"size_distribution",
+               services,
+               results,
+               {".csv", "_histogram.csv", ".svg", ".png", "_over_time.svg", "_over_time.png"}};
   const std::vector<std::string>& materials = options_.texts("materials");
   counts_.assign(services.materials().size(), materials.empty() ? 1 : 0);
   for (const std::string& name : materials) counts_[services.material(name)] = 1;

@@ -7,6 +7,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/results/csv.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 
 namespace scree {
@@ -23,7 +24,8 @@ class Track final : public Observer {
             Parameter::number("interval", "s", "simulated time between rows; 0 for every step")
                 .at_least(0.0)
                 .by_default(0.0),
-            Parameter::text("file", "name of the table in the result folder; track.csv or track_NAME.csv when left out")
+            Parameter::text("file",
+                            "name of the table, in the folder of results; track.csv or track_NAME.csv when left out")
                 .by_default("")};
   }
 
@@ -31,6 +33,7 @@ class Track final : public Observer {
     for (const std::string& name : names_) wanted_.insert(services.body(name).id);
     every_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(interval_ / services.time_step())));
     if (file_.empty()) file_ = result_stem("track", "track", services.part_name()) + ".csv";
+    claim_results(services, file_, {""});
     if (!results.empty()) path_ = results / file_;
   }
 

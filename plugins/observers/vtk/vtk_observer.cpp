@@ -7,6 +7,7 @@
 #include "scree/interfaces/plugin_library.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
@@ -41,6 +42,10 @@ std::vector<Parameter> VtkObserver::parameters() {
 void VtkObserver::setup(SceneServices& services, const std::filesystem::path& results) {
   const auto stem = [name = services.part_name()](const char* plain) { return result_stem(plain, "vtk", name); };
   stems_ = {stem("run"), stem("particles"), stem("walls"), stem("spheres")};
+  claim_results(services, stems_.run, {".pvd"});
+  claim_results(services, stems_.particles, {"_*.vtp"});
+  if (walls_) claim_results(services, stems_.walls, {"_*.vtp"});
+  if (spheres_) claim_results(services, stems_.spheres, {"_*.vtp", ".pvd"});
   results_ = results;
   services.show_all_attributes();
   cut_.setup(options_, services);

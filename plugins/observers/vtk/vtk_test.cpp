@@ -32,7 +32,10 @@ class VtkObserverTest : public testing::Test {
     other_charge = services.provide_attribute({"charge_induced", "C", "", 0.0, {}});
     add_bodies();
   }
-  void TearDown() override { fs::remove_all(folder); }
+  void TearDown() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    fs::remove_all(folder);
+  }
 
   void add_shapes() {
     PrimitiveData cluster, wall;
@@ -140,6 +143,7 @@ TEST_F(VtkObserverTest, files_read_back_with_vtk_to_every_value) {
                             {0.2, 1, "walls_00000002.vtp"},
                             {0.1 * 3, 0, "particles_00000003.vtp"},
                             {0.1 * 3, 1, "walls_00000002.vtp"}};
+  services.claim_result("expected.json");
   std::ofstream{folder / "expected.json"} << expected;
   const std::string command = "/usr/bin/python3 " SCREE_READ_BACK " " + folder.string();
   EXPECT_EQ(std::system(command.c_str()), 0);
@@ -154,6 +158,7 @@ TEST_F(VtkObserverTest, single_precision_keeps_seven_digits) {
   expected["files"] = {expected_particles(bodies, "particles_00000001.vtp", 0.1, 6e-8)};
   expected["walls"] = {{"file", "walls_00000001.vtp"}, {"triangles", 12}, {"volume", 0.048}};
   expected["collection"] = {{0.1, 0, "particles_00000001.vtp"}, {0.1, 1, "walls_00000001.vtp"}};
+  services.claim_result("expected.json");
   std::ofstream{folder / "expected.json"} << expected;
   const std::string command = "/usr/bin/python3 " SCREE_READ_BACK " " + folder.string();
   EXPECT_EQ(std::system(command.c_str()), 0);

@@ -8,6 +8,7 @@
 #include "contact_study/contact_motion.hpp"
 #include "scree/base/require.hpp"
 #include "scree/interfaces/plugin_library.hpp"
+#include "scree/results/result_claims.hpp"
 #include "scree/results/result_folder.hpp"
 #include "scree/state/state_io.hpp"
 
@@ -78,6 +79,7 @@ void WearObserver::setup(SceneServices& services, const std::filesystem::path& r
   field_every_ =
       options_.has("field_interval") ? steps_between(options_.number("field_interval"), services.time_step()) : 0;
   stem_ = result_stem("wear", "wear", services.part_name());
+  claim_results(services, stem_, {".csv", "_*.vtp", ".pvd", ".svg", ".png"});
   results_ = results;
   row_volume_.assign(followed_.size(), 0.0);
   body_materials_.assign(followed_.size(), 0);

@@ -42,7 +42,10 @@ class WearTest : public ::testing::Test {
     bodies.add_immovable(0, {0, 0, -0.1});
     bodies.add_sphere(1, {0, 0, 0.05}, 0.05, 1000.0);
   }
-  void TearDown() override { fs::remove_all(folder); }
+  void TearDown() override {
+    EXPECT_EQ(services.unclaimed_in(folder), std::vector<std::string>{});
+    fs::remove_all(folder);
+  }
 
   [[nodiscard]] std::unique_ptr<WearObserver> make(const std::string& options, const fs::path& results = {}) {
     auto wear = std::make_unique<WearObserver>(options_from_text(options, WearObserver::parameters()));

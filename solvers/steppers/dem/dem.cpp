@@ -13,6 +13,7 @@
 #include "scree/model/material.hpp"
 #include "scree/parallel/executor.hpp"
 #include "scree/state/state_io.hpp"
+#include "sub_step_limit.hpp"
 
 namespace scree {
 namespace {
@@ -185,7 +186,7 @@ std::vector<Dem::Extremes> Dem::extremes(const Call& call) const {
   return of;
 }
 
-double Dem::stable_step(const Call& call) const {
+double Dem::stable_step(const Call& call, std::array<std::uint32_t, 2>& stiffest) const {
   const std::vector<Extremes> of = extremes(call);
   // Several points of one pair share its mass; see ShapeContacts.
   const double share = 1.0 / static_cast<double>(shapes_.most_points());
@@ -194,7 +195,8 @@ double Dem::stable_step(const Call& call) const {
     if (!of[a].moves) continue;
     for (std::uint32_t b = 0; b < of.size(); ++b) {
       const auto ask = [&](double mass, double radius) {
-        least = std::min(least, call.law.stable_step({a, b, share * mass, radius, of[a].speed + of[b].speed}));
+        const double step = call.law.stable_step({a, b, share * mass, radius, of[a].speed + of[b].speed});
+        if (step < least) least = step, stiffest = {a, b};
       };
       if (of[b].moves) {
         ask(1.0 / (1.0 / of[a].mass + 1.0 / of[b].mass), 1.0 / (1.0 / of[a].radius + 1.0 / of[b].radius));
@@ -206,7 +208,8 @@ double Dem::stable_step(const Call& call) const {
 }
 
 void Dem::choose_sub_step(const Call& call) {
-  const double stable = stable_step(call), asked = options_.sub_step;
+  std::array<std::uint32_t, 2> stiffest{};
+  const double stable = stable_step(call, stiffest), asked = options_.sub_step;
   // Later, when bodies are faster or smaller than those of the first step, the step is made as short as it has to be.
   if (asked > stable * (1.0 + 1e-9) && !options_.force_step && last_h_ == 0.0) {
     char text[200];
@@ -220,7 +223,12 @@ void Dem::choose_sub_step(const Call& call) {
   }
   const double wanted = asked > 0.0 && (options_.force_step || asked < stable) ? asked : stable;
   const double longest = std::min(wanted, call.dt);
-  sub_steps_ = static_cast<std::size_t>(std::max(1.0, std::ceil(call.dt / longest - 1e-9)));
+  const double count = std::max(1.0, std::ceil(call.dt / longest - 1e-9));
+  if (!(count <= dem::kMostSubSteps)) {
+    throw error_of(dem::EndlessStep{call.dt, count, wanted == asked, stiffest, last_h_ == 0.0}, scene_options_,
+                   call.services.materials());
+  }
+  sub_steps_ = static_cast<std::size_t>(count);
   h_ = call.dt / static_cast<double>(sub_steps_);
   if (told_ || !std::isfinite(stable)) return;
   told_ = true;

@@ -62,7 +62,8 @@ class Dem final : public TimeStepper {
 
   [[nodiscard]] Extremes extremes_of(const BodyView& bodies, BodyIndex body) const;
   [[nodiscard]] std::vector<Extremes> extremes(const Call& call) const;
-  [[nodiscard]] double stable_step(const Call& call) const;
+  /// [s]; `stiffest` gets the materials of the contact that allows no more.
+  [[nodiscard]] double stable_step(const Call& call, std::array<std::uint32_t, 2>& stiffest) const;
   void refuse_moving_surfaces_of_balls(const BodyView& bodies) const;
   void follow_bodies(const BodyView& bodies);
   void find_neighbours(const Call& call);

@@ -212,6 +212,24 @@ TEST(dem, a_step_that_the_law_calls_too_long_is_refused_unless_forced) {
   EXPECT_NO_THROW(forced.step(1e-3));
 }
 
+// 0.05 pi sqrt(m / k) of 5e-4 kg and 1e20 N/m is 3.5e-13 s: 3e9 in a step. So is a sub-step that the scene forces.
+TEST(dem, a_step_of_more_than_a_million_sub_steps_is_refused) {
+  DemWorld stiff, asked{{.sub_step = 0.9e-9, .force_step = true}};
+  stiff.law.stiffness = 1e20;
+  for (DemWorld* world : {&stiff, &asked}) {
+    world->add_ball({0, 0, 0}, 0.005);
+    try {
+      world->step(1e-3);
+      FAIL() << "was taken";
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("more than the 1e+06"), std::string::npos) << text;
+      EXPECT_EQ(text.find("for 'stuff' on 'stuff'") != std::string::npos, world == &stiff) << text;
+      EXPECT_EQ(text.find("longer `sub_step`") != std::string::npos, world == &asked) << text;
+    }
+  }
+}
+
 TEST(dem, fields_are_asked_once_a_step_when_they_are_steady) {
   DemWorld world{{.sub_step = 1e-5, .force_step = true}};
   world.add_ball({0, 0, 0}, 0.005);
