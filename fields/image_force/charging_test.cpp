@@ -117,6 +117,14 @@ TEST(image_force, a_break_of_contact_starts_its_age_again) {
   EXPECT_EQ(scene.charge(i), -1e-11);
 }
 
+TEST(image_force, a_contact_that_pulls_is_not_broken) {
+  ImageForceScene scene{"discharge_contact_age = '2.5 ms'\n"};
+  const std::size_t i = scene.add_grain(0.0);
+  scene.charge(i) = -1e-11;
+  for (const double impulse : {1e-6, -1e-6, 1e-6}) scene.step(i, impulse);
+  EXPECT_EQ(scene.charge(i), 0.0) << "after 3 ms";
+}
+
 TEST(image_force, without_a_contact_age_charge_stays_on_the_roll_for_good) {
   ImageForceScene scene;
   const std::size_t i = scene.add_grain(0.0);

@@ -12,8 +12,8 @@
 // 0.832 = (zeta(3) + 1/6) / zeta(2). Source: Critelli, Tasora, Degiorgi, Colledani, "Particle Simulation of Granular
 // Flows in Electrostatic Separation Processes".
 //
-// Touching means a normal impulse above zero in the last step. With several grounded contacts n is the direction of
-// their joint push.
+// Touching means a normal impulse in the last step, of a push or of a pull by cohesion. With several grounded contacts n is
+// the direction of their joint push, in which a pull counts as a push of its size.
 //
 // Grains that are partly metal: the column `charge_induced` holds `metal_fraction` times Q, and the force follows from
 // the column, which makes it `metal_fraction` times the force on metal.

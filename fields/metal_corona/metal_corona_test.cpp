@@ -147,6 +147,15 @@ TEST(metal_corona, near_contacts_without_impulse_and_ungrounded_bodies_do_not_ch
   for (std::size_t body = 0; body < scene.bodies.id.size(); ++body) EXPECT_EQ(scene.charge(body), 0.0);
 }
 
+// Cohesion holds a grain on the electrode: it touches, and its normal is where it was.
+TEST(metal_corona, a_contact_that_pulls_touches_too) {
+  Scene scene{{0.0, kStrength, 0.0}};
+  const std::size_t i = scene.add_grain(1.0);
+  scene.touch(0, static_cast<BodyIndex>(i), {0.0, 1.0, 0.0}, -1e-6);
+  scene.step();
+  EXPECT_NEAR(scene.charge(i), kCharge, 1e-14 * kCharge);
+}
+
 TEST(metal_corona, several_contacts_count_as_their_joint_push) {
   Scene scene{{0.0, kStrength, 0.0}};
   const std::size_t i = scene.add_grain(1.0);
