@@ -17,11 +17,12 @@ SCENE = pathlib.Path(__file__).resolve().parent / "scene.toml"
 LENGTH, WIDTH, GRAIN, LIFTED = 0.04, 0.012, 4e-3, 0.3  # L, distance of the long walls, mean grain [m]; start of the gate [s]
 PER_ASPECT = 250                                       # grains that make a column about as high as long
 SEEDS = (1, 2, 3)
-STUDY = (0.7, 1.0, 1.5, 3.0, 4.5)
+STUDY = (0.7, 1.0, 1.5, 3.0, 3.5, 4.5)
+KINK = 2.3                                             # aspect ratio between the branches
 
 
 def law(a):
-    return 1.2 * a if a < 2.3 else 1.9 * a ** (2 / 3)
+    return 1.2 * a if a < KINK else 1.9 * a ** (2 / 3)
 
 
 def edge(points):
