@@ -59,8 +59,13 @@ int Run::to_the_end() {
   } catch (const Error& failure) {
     progress_.end_line();
     if (!finish_failed(failure)) throw;
-    throw Error{failure.kind(), fmt::format("{}; the last good state, at {:.6g} s, is in {}", failure.what(),
-                                            simulation_.time(), (options_.output / kCheckpointFile).string())};
+    std::string where = fmt::format("{}; the last good state, at {:.6g} s, is in {}, without what contacts remember",
+                                    failure.what(), simulation_.time(), (options_.output / kLastStateFile).string());
+    if (has_checkpoint_) {
+      where += fmt::format("; a whole checkpoint, at {:.6g} s, is in {}", last_checkpoint_,
+                           (options_.output / kCheckpointFile).string());
+    }
+    throw Error{failure.kind(), where};
   }
 }
 
@@ -104,6 +109,7 @@ void Run::report_recording() const {
 void Run::save_checkpoint() {
   simulation_.save(options_.output / kCheckpointFile);
   last_checkpoint_ = simulation_.time();
+  has_checkpoint_ = true;
 }
 
 void Run::finish(int exit_code, const std::string& outcome) {
@@ -117,8 +123,8 @@ void Run::finish(int exit_code, const std::string& outcome) {
   write_record(exit_code, outcome);
 }
 
-/// Saves what can be saved, and tells whether there is a checkpoint of the last good state. A second failure, on a full
-/// disk say, would only hide the first.
+/// Saves what can be saved, and tells whether the last good state is. A second failure, on a full disk say, would only hide
+/// the first. What a stepper keeps of contacts is lost with the step: a checkpoint that has it stays as it is.
 bool Run::finish_failed(const Error& failure) {
   const auto attempt = [](const auto& call) {
     try {
@@ -130,7 +136,7 @@ bool Run::finish_failed(const Error& failure) {
   };
   bool saved = false;
   if (failure.kind() == ErrorKind::diverged) {
-    saved = attempt([&] { save_checkpoint(); });
+    saved = attempt([&] { simulation_.save(options_.output / kLastStateFile); });
     attempt([&] { simulation_.finish(); });
   }
   attempt([&] { write_record(failure.exit_code(), failure.what()); });

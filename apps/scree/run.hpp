@@ -26,7 +26,7 @@ class Run {
   /// Steps until the end or an interrupt, writes everything that is left, prints the tables. Returns the exit code, 0
   /// or kInterrupted.
   /// @throws Error when the run failed: run.json is written with the exit code of that error, and for a run that
-  /// diverged the last good state as checkpoint.h5.
+  /// diverged the last good state as last_good_state.h5.
   int to_the_end();
 
  private:
@@ -50,7 +50,8 @@ class Run {
   Progress progress_;
   CcpRecording recording_;
   RunStatistics statistics_;
-  double last_checkpoint_;  // simulated time [s]
+  double last_checkpoint_;       // simulated time [s]
+  bool has_checkpoint_ = false;  // of this run
   RunRecord record_;
 };
 

@@ -8,6 +8,7 @@ namespace scree {
 
 void CollisionFilter::set_groups_meet(CollisionGroup a, CollisionGroup b, bool meet) {
   SCREE_REQUIRE(a < kMostGroups && b < kMostGroups, "a collision filter knows 32 groups");
+  ++version_;
   const auto set = [meet](std::uint32_t& mask, CollisionGroup group) {
     const std::uint32_t bit = std::uint32_t{1} << group;
     mask = meet ? mask | bit : mask & ~bit;
@@ -18,6 +19,7 @@ void CollisionFilter::set_groups_meet(CollisionGroup a, CollisionGroup b, bool m
 }
 
 void CollisionFilter::exclude(BodyId a, BodyId b) {
+  ++version_;
   const std::pair<BodyId, BodyId> pair = std::minmax(a, b);
   const auto at = std::ranges::lower_bound(excluded_, pair, {}, &Exclusion::pair);
   if (at != excluded_.end() && at->pair == pair) {
@@ -28,6 +30,7 @@ void CollisionFilter::exclude(BodyId a, BodyId b) {
 }
 
 void CollisionFilter::admit(BodyId a, BodyId b) {
+  ++version_;
   const std::pair<BodyId, BodyId> pair = std::minmax(a, b);
   const auto at = std::ranges::lower_bound(excluded_, pair, {}, &Exclusion::pair);
   SCREE_REQUIRE(at != excluded_.end() && at->pair == pair, "a pair is admitted that was not excluded");

@@ -28,6 +28,8 @@ class CollisionFilter {
   void exclude(BodyId a, BodyId b);
   /// Takes one exclusion back. @throws std::logic_error when there is none.
   void admit(BodyId a, BodyId b);
+  /// Counts the changes so far: who keeps pairs of bodies must ask for them again when it is another.
+  [[nodiscard]] std::uint64_t version() const { return version_; }
   /// Excluded pairs, each once.
   [[nodiscard]] std::size_t excluded_pairs() const { return excluded_.size(); }
 
@@ -56,6 +58,7 @@ class CollisionFilter {
 
   std::array<std::uint32_t, kMostGroups> mask_;  // bit g: meets group g
   bool groups_differ_ = false;
+  std::uint64_t version_ = 0;
   std::vector<Exclusion> excluded_;                           // sorted
   std::vector<Record> records_;                               // by body
   std::vector<std::pair<BodyIndex, BodyIndex>> excluded_at_;  // sorted: ids and indices have one order

@@ -103,6 +103,18 @@ TEST(CollisionFilter, excluded_pairs_are_counted) {
   EXPECT_THROW(filter.admit(1, 3), std::logic_error);
 }
 
+// Law: whoever keeps pairs can tell that they are out of date.
+TEST(CollisionFilter, every_change_is_another_version) {
+  CollisionFilter filter;
+  std::set<std::uint64_t> versions{filter.version()};
+  filter.exclude(3, 1);
+  EXPECT_TRUE(versions.insert(filter.version()).second);
+  filter.admit(1, 3);
+  EXPECT_TRUE(versions.insert(filter.version()).second);
+  filter.set_groups_meet(1, 2, false);
+  EXPECT_TRUE(versions.insert(filter.version()).second);
+}
+
 // Law: pairs go by id: bodies that leave take their pairs along, and the others keep theirs at new indices.
 TEST(CollisionFilter, exclusions_follow_ids_when_bodies_leave) {
   Heap heap;

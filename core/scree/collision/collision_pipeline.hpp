@@ -66,6 +66,7 @@ class CollisionPipeline {
 
   /// Who meets whom; to be set between steps.
   [[nodiscard]] CollisionFilter& filter() { return filter_; }
+  [[nodiscard]] const CollisionFilter& filter() const { return filter_; }
 
   /// Checks that every two kinds of which one may move, in groups that meet, are supported.
   /// @throws Error (usage) naming the two kinds.

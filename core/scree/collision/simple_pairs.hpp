@@ -28,4 +28,28 @@ inline bool is_flat(const ShapeSet& shapes, const BodyView& bodies, BodyIndex i)
   return only != nullptr && only->kind == ShapeKind::plane && surface_motion(bodies, i) == Twist{};
 }
 
+/// The half space below a body of is_flat(): its points x have dot(normal, x) < offset.
+struct HalfSpace {
+  Vec3 normal;          ///< world [1]
+  double offset = 0.0;  ///< [m]
+};
+
+inline HalfSpace half_space(const ShapeSet& shapes, const BodyView& bodies, BodyIndex flat) {
+  const Pose plane =
+      Pose{bodies.position[flat], bodies.orientation[flat]} * only_primitive(shapes, bodies.shape[flat])->local;
+  const Vec3 normal = rotate(plane.orientation, {0, 0, 1});
+  return {normal, dot(normal, plane.position)};
+}
+
+/// Gap of a simple pair [m], negative where it overlaps.
+inline double simple_gap(const ShapeSet& shapes, const BodyView& bodies, BodyIndex a, BodyIndex b) {
+  const auto above = [&](BodyIndex flat, BodyIndex ball) {
+    const HalfSpace half = half_space(shapes, bodies, flat);
+    return dot(half.normal, bodies.position[ball]) - half.offset - bodies.radius[ball];
+  };
+  if (is_flat(shapes, bodies, a)) return above(a, b);
+  if (is_flat(shapes, bodies, b)) return above(b, a);
+  return norm(bodies.position[b] - bodies.position[a]) - bodies.radius[a] - bodies.radius[b];
+}
+
 }  // namespace scree

@@ -2,6 +2,7 @@
 // host.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "scree/collision/collider.hpp"
@@ -34,6 +35,9 @@ class StepServices {
                                             std::span<const Vec3> free_angular_velocity, double dt) = 0;
   /// The pairs that can touch as long as all bodies move as `expected` says, and some that cannot. Valid until the next call.
   virtual NeighbourView neighbours(const BodyView& bodies, const ExpectedMotion& expected);
+  /// Another number than before when bodies may meet that might not, or the other way round: neighbours are then to be asked for
+  /// again. Changes between steps only.
+  [[nodiscard]] virtual std::uint64_t filter_version() const { return 0; }
   /// Contacts with a gap below `reach` [m] at the state `bodies`, of those pairs of neighbours() that are not in
   /// its `balls`; sorted as contacts() are. Bodies are those of that call, moved. Valid until the next call.
   virtual std::span<const Contact> neighbour_contacts(const BodyView& bodies, double reach);

@@ -37,7 +37,7 @@ bool meet(std::string_view one, std::string_view other) {
 
 ResultClaims::ResultClaims() {
   for (const char* file :
-       {kStepsFile, kRemovedFile, kJointsFile, kRunFile, kCheckpointFile, "ccp_*.h5", ".scree_results"})
+       {kStepsFile, kRemovedFile, kJointsFile, kRunFile, kCheckpointFile, kLastStateFile, "ccp_*.h5", ".scree_results"})
     claims_.emplace_back(kTheRun, file);
 }
 

@@ -20,6 +20,7 @@ inline constexpr const char* kRemovedFile = "removed.csv";
 inline constexpr const char* kJointsFile = "joints.csv";
 inline constexpr const char* kRunFile = "run.json";
 inline constexpr const char* kCheckpointFile = "checkpoint.h5";
+inline constexpr const char* kLastStateFile = "last_good_state.h5";  ///< of a run that failed
 
 /// Who writes what. A `*` in the name of a file stands for a number.
 class ResultClaims {

@@ -15,8 +15,8 @@ TEST(result_claims, a_file_belongs_to_the_first_who_claims_it) {
 }
 
 TEST(result_claims, the_run_has_its_own_files) {
-  for (const char* file :
-       {kStepsFile, kRemovedFile, kJointsFile, kRunFile, kCheckpointFile, "ccp_12.h5", ".scree_results"}) {
+  for (const char* file : {kStepsFile, kRemovedFile, kJointsFile, kRunFile, kCheckpointFile, kLastStateFile,
+                           "ccp_12.h5", ".scree_results"}) {
     EXPECT_EQ(ResultClaims{}.claim("one", file), "the run itself") << file;
     EXPECT_EQ(ResultClaims{}.claim("one", std::string{file} + ".part"), "the run itself") << file;
   }

@@ -51,7 +51,7 @@ Simulation::State::State(const SceneDocument& document, const PluginCatalog& cat
   exclude_joined(model, pipeline->filter());
   host.emplace(parts, *pipeline, *machine, model.materials, executor, timer);
   host->on_motion([this] { backup.keep(bodies, executor); });
-  if (!model.simulation.boolean("allow_overlap")) host->watch_births(births, model.bodies);
+  if (!model.simulation.boolean("allow_overlap")) host->watch_births(births, model.bodies, model.shapes);
   check_stepper_needs(parts, model, *pipeline, bodies.view());
   check_overlap();
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scree/base/release.hpp"
+#include "scree/collision/simple_pairs.hpp"
 #include "scree/simulation/force_sum.hpp"
 
 namespace scree {
@@ -35,14 +36,14 @@ NeighbourView StepHost::neighbours(const BodyView& bodies, const ExpectedMotion&
   return found;
 }
 
-// Neighbours that are balls never become contacts of the host.
+// Simple pairs never become contacts of the host.
 void StepHost::check_births(const BodyView& bodies, const NeighbourView& neighbours) {
   const BodyIndex first = births_->first_unseen(bodies.size());
   const std::span<const Contact> others = pipeline_.collide_neighbours(bodies, 0.0);
   std::vector<Contact> contacts{others.begin(), others.end()};
   for (const auto [a, b] : neighbours.balls) {
     if (b < first) continue;
-    const double gap = norm(bodies.position[b] - bodies.position[a]) - bodies.radius[a] - bodies.radius[b];
+    const double gap = simple_gap(*shapes_, bodies, a, b);
     if (gap >= 0.0) continue;
     contacts.emplace_back();
     contacts.back().a = a, contacts.back().b = b, contacts.back().gap = gap;

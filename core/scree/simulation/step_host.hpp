@@ -30,16 +30,18 @@ class StepHost final : public StepServices {
         executor_{executor},
         timer_{timer} {}
 
-  /// Has the first contacts of a step looked at by `births`; `known` are the bodies of the scene. Both outlive the host.
-  void watch_births(BirthCheck& births, std::span<const SceneBody> known) {
+  /// Has the first contacts of a step looked at by `births`; `known` are the bodies of the scene. All outlive the host.
+  void watch_births(BirthCheck& births, std::span<const SceneBody> known, const ShapeSet& shapes) {
     births_ = &births;
     known_ = known;
+    shapes_ = &shapes;
   }
 
   void forces(const BodyView& bodies, double time, WrenchView out) override;
   std::span<const Contact> contacts(const BodyView& bodies, std::span<const Vec3> free_velocity,
                                     std::span<const Vec3> free_angular_velocity, double dt) override;
   NeighbourView neighbours(const BodyView& bodies, const ExpectedMotion& expected) override;
+  [[nodiscard]] std::uint64_t filter_version() const override { return pipeline_.filter().version(); }
   std::span<const Contact> neighbour_contacts(const BodyView& bodies, double reach) override;
   [[nodiscard]] bool forces_are_steady() const override;
   [[nodiscard]] const ContactLaw* contact_law() const override {
@@ -70,6 +72,7 @@ class StepHost final : public StepServices {
   ActiveSetSolve active_set_;
   BirthCheck* births_ = nullptr;
   std::span<const SceneBody> known_;
+  const ShapeSet* shapes_ = nullptr;
   ProblemTap tap_;
   std::function<void()> on_motion_ = [] {};
 };

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "scree/base/error.hpp"
 #include "scree/interfaces/plugin_library.hpp"
@@ -113,6 +114,8 @@ void Dem::take_over(const Call& call) {
   refuse_moving_surfaces_of_balls(bodies);
   balls_.begin_step(call.services.executor());
   shapes_.begin_step(bodies);
+  if (std::exchange(filter_version_, call.services.filter_version()) != call.services.filter_version())
+    list_is_good_ = false;
   if (!list_is_good_) find_neighbours(call);
 }
 

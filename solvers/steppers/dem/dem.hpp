@@ -94,11 +94,12 @@ class Dem final : public TimeStepper {
   std::vector<Vec3> field_force_, field_torque_;  ///< by body
   std::uint64_t steps_since_sort_ = 0;
   bool list_is_good_ = false;
-  double skin_ = 0.0;      ///< [m]
-  double reach_ = 0.0;     ///< of the law, for the largest bodies [m]
-  double unstored_ = 0.0;  ///< time since bodies were last written back [s]
-  double h_ = 0.0;         ///< sub-step [s]
-  double last_h_ = 0.0;    ///< of the last outer step [s]
+  std::uint64_t filter_version_ = 0;  ///< that the list was made with
+  double skin_ = 0.0;                 ///< [m]
+  double reach_ = 0.0;                ///< of the law, for the largest bodies [m]
+  double unstored_ = 0.0;             ///< time since bodies were last written back [s]
+  double h_ = 0.0;                    ///< sub-step [s]
+  double last_h_ = 0.0;               ///< of the last outer step [s]
   std::size_t sub_steps_ = 0;
 };
 

@@ -96,6 +96,27 @@ TEST(dem_load, the_load_of_a_body_that_moves_as_told_is_its_work) {
   EXPECT_GT(total, 1e-6);
 }
 
+TEST(dem_load, a_ball_that_moves_as_told_gives_what_its_load_takes) {
+  DemWorld world;
+  set_law(world, 0.0);
+  world.host.gravity = {};
+  const std::size_t paddle = world.add_ball({0.006, 0.006, -0.006}, 0.005);
+  world.bodies.motion[paddle] = Motion::kinematic;
+  world.bodies.velocity[paddle] = {0.1, 0, 0.3};
+  world.bodies.angular_velocity[paddle] = {0, 20.0, 2.0};
+  world.add_cloud(3, 0.1);
+  double total = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    const StepSummary summary = world.step(1e-3);
+    const ContactView view = world.dem.contacts();
+    ASSERT_EQ(view.loads.size(), 2u) << "the plane's, and that of the ball";
+    EXPECT_EQ(view.loads[1].body, paddle);
+    EXPECT_NEAR(view.loads[1].work, -summary.work.boundary_work, 1e-15 + 1e-12 * std::abs(total));
+    total += summary.work.boundary_work;
+  }
+  EXPECT_GT(total, 1e-6);
+}
+
 TEST(dem_load, contacts_take_what_the_account_says_is_lost) {
   // Over whole collisions. At each force the velocity is a predicted one: the error falls with the sub-step.
   const auto error_of = [](double h) {

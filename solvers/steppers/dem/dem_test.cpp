@@ -240,5 +240,26 @@ TEST(dem, fields_are_asked_once_a_step_when_they_are_steady) {
   EXPECT_EQ(world.host.asked, 1 + 101);
 }
 
+// Law: what a joint kept apart is known from the step on in which the joint is gone, however far the neighbours reach.
+TEST(dem, balls_that_may_meet_from_now_on_do) {
+  for (const double skin : {1e-6, 1e-2}) {
+    DemWorld world{{.skin = skin}};
+    world.law.stiffness = 1e5;
+    world.add_ball({0, 0, 0}, 0.01);
+    const std::size_t faller = world.add_ball({0, 0, 0.0203}, 0.01, {0, 0, -0.1});
+    world.bodies.motion[1] = Motion::fixed;
+    world.host.balls_meet = false;
+    world.step(1e-3);
+    world.host.balls_meet = true;
+    double deepest = 0.0;
+    for (int k = 0; k < 20; ++k) {
+      deepest = std::max(deepest, world.step(1e-3).max_penetration);
+    }
+    // Without loss the overlap grows to v sqrt(m / k), and the ball flies back as it came.
+    EXPECT_NEAR(deepest, 0.1 * std::sqrt(world.bodies.mass[faller] / world.law.stiffness), 1e-6) << skin;
+    EXPECT_NEAR(world.bodies.velocity[faller].z, 0.1, 1e-3) << skin;
+  }
+}
+
 }  // namespace
 }  // namespace scree

@@ -83,7 +83,7 @@ class DemHost final : public StepServices {
         others_.push_back(a);
       }
     }
-    for (BodyIndex a = 1; a < view.size(); ++a) {
+    for (BodyIndex a = 1; balls_meet && a < view.size(); ++a) {
       for (BodyIndex b = a + 1; b < view.size(); ++b) {
         if (norm(view.position[b] - view.position[a]) < view.radius[a] + view.radius[b] + reach(a, b))
           balls_.push_back({a, b});
@@ -106,11 +106,13 @@ class DemHost final : public StepServices {
   [[nodiscard]] const Materials& materials() const override { return materials_; }
   [[nodiscard]] const Executor& executor() const override { return executor_; }
 
+  [[nodiscard]] std::uint64_t filter_version() const override { return balls_meet ? 1 : 0; }
   [[nodiscard]] Machine* machine() override { return joints; }
 
   Machine* joints = nullptr;  ///< of the scene; none
   Vec3 gravity;               ///< [m/s2]
   bool steady = true;
+  bool balls_meet = true;    ///< not kept apart by the scene's filter
   bool simple_floor = true;  ///< as the real pipeline has it; else the narrow phase finds its contacts
   int asked = 0;             ///< times that forces() was called
   int searches = 0;          ///< for neighbours

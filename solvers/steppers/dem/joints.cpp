@@ -126,6 +126,8 @@ void Joints::allow(Slots& slots, double h, double kick, Motions& done) {
     moving.linear += push;
     const Pose pose = moved(body.start, velocity_[k], h);
     if (h > 0.0) slots.place[slot].position = pose.position;
+    const double reach = body.turning == kNone ? 0.0 : slots.reach[body.turning];
+    done.fastest = std::max(done.fastest, norm(velocity_[k].linear) + reach * norm(velocity_[k].angular));
     if (body.turning == kNone) continue;
     Turning& turning = slots.turning[body.turning];
     if (h > 0.0) turning.orientation = pose.orientation;

@@ -87,9 +87,8 @@ void Slots::find_flats(const BodyView& bodies, const ShapeSet& shapes) {
   for (Slot k = 0; k < size(); ++k) {
     const BodyIndex i = body[k];
     if (moving[k].is_dynamic() || !is_flat(shapes, bodies, i)) continue;
-    const Pose plane = Pose{bodies.position[i], bodies.orientation[i]} * only_primitive(shapes, bodies.shape[i])->local;
-    const Vec3 normal = rotate(plane.orientation, {0, 0, 1});
-    flats.push_back({.slot = k, .normal = normal, .offset = dot(normal, plane.position), .centre = bodies.position[i]});
+    const HalfSpace half = half_space(shapes, bodies, i);
+    flats.push_back({.slot = k, .normal = half.normal, .offset = half.offset, .centre = bodies.position[i]});
   }
 }
 
@@ -98,7 +97,7 @@ void Slots::find_turning(const BodyView& bodies, const ShapeSet& shapes, std::sp
   for (Slot k = 0; k < size(); ++k) {
     const BodyIndex i = body[k];
     const bool dynamic = moving[k].is_dynamic();
-    const bool plain_ball = is_ball(k) && (!dynamic || inverse_moment[k] > 0.0);
+    const bool plain_ball = is_ball(k) && dynamic && inverse_moment[k] > 0.0;
     if (bodies.motion[i] == Motion::fixed) {
       standing.push_back({.slot = k});
       standing.back().load.body = i;
@@ -114,7 +113,7 @@ void Slots::find_turning(const BodyView& bodies, const ShapeSet& shapes, std::sp
     }
     inverse_moment[k] = 0.0;
     turning.push_back(t);
-    const double farthest = shapes.shapes()[bodies.shape[i]].bounding_radius;
+    const double farthest = is_ball(k) ? 0.0 : shapes.shapes()[bodies.shape[i]].bounding_radius;
     reach.push_back(std::isfinite(farthest) ? farthest : farthest_from(k));
   }
 }

@@ -100,7 +100,7 @@ struct Slots {
   std::vector<Flat> flats;              ///< by slot
   std::vector<Standing> standing;       ///< by slot
   std::vector<Turning> turning;         ///< by slot
-  std::vector<double> reach;            ///< by entry of turning: farthest point from the centre of mass [m]
+  std::vector<double> reach;            ///< by entry of turning: farthest point from the centre of mass [m], 0 of balls
 
   [[nodiscard]] std::size_t size() const { return body.size(); }
   [[nodiscard]] bool is_ball(Slot slot) const { return place[slot].radius > 0.0; }

@@ -59,13 +59,13 @@ void Verlet::move_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
     const Lanes mean = v + work.shift * a, mean_spin = counts * (w + work.shift * alpha);
     contact_work += pull * mean + turn * mean_spin;
     force_work += force * mean + torque * mean_spin;
-    const Lanes next = v + ahead * a;
-    set_four(four_of(place) + (ahead * kVector) * (v + (0.5 * ahead) * a), place);
-    set_four(next, body);
+    const Lanes drift = v + (0.5 * ahead) * a;
+    set_four(four_of(place) + (ahead * kVector) * drift, place);
+    set_four(v + ahead * a, body);
     set_four(w + ahead * alpha, body, 1);
     set_four(a, old);
     set_four(alpha, old, 1);
-    fastest2 = std::max(fastest2, next[0] * next[0] + next[1] * next[1] + next[2] * next[2]);
+    fastest2 = std::max(fastest2, drift[0] * drift[0] + drift[1] * drift[1] + drift[2] * drift[2]);
   }
   out.contact_work += work.impulse_time * (contact_work[0] + contact_work[1] + contact_work[2]);
   out.force_work += work.impulse_time * (force_work[0] + force_work[1] + force_work[2]);
@@ -83,6 +83,7 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
     Vec3& spin = slots.moving[t.slot].angular;
     Quat& q = t.orientation;
     Twist mean{slots.moving[t.slot].linear, spin};
+    double speed = norm(mean.linear), turn = norm(spin);  // of the drift
     t.load.impulse += work.impulse_time * contact.force;
     t.load.angular_impulse += work.impulse_time * contact.torque;
     if (slots.moving[t.slot].is_dynamic()) {
@@ -93,11 +94,13 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
       out.contact_work += work.impulse_time * dot(contact.torque, mean.angular);
       out.force_work += work.impulse_time * dot(torque - contact.torque, mean.angular);
       const Vec3 half = t.momentum + (0.5 * ahead) * torque;
+      speed = norm(slots.moving[t.slot].linear - (0.5 * ahead) * slots.old[t.slot].linear);
       if (ahead > 0.0) {
         const Vec3 w = angular_velocity(q, t.inverse_inertia, half);
         const Quat middle = normalized(from_rotation_vector((0.5 * ahead) * w) * q);
         const Vec3 w_middle = angular_velocity(middle, t.inverse_inertia, half);
         q = normalized(from_rotation_vector(ahead * w_middle) * q);
+        turn = norm(w_middle);
       }
       t.momentum = half + (0.5 * ahead) * torque;
       t.torque = torque;
@@ -106,8 +109,7 @@ void Verlet::turn_chunk(Slots& slots, double h, Stage stage, std::size_t first, 
       q = normalized(from_rotation_vector(ahead * spin) * q);
     }
     t.load.work += work.impulse_time * (dot(contact.force, mean.linear) + dot(contact.torque, mean.angular));
-    const double turn = norm(spin);
-    if (turn > 0.0) out.fastest = std::max(out.fastest, norm(slots.moving[t.slot].linear) + turn * slots.reach[k]);
+    if (turn > 0.0) out.fastest = std::max(out.fastest, speed + turn * slots.reach[k]);
   }
 }
 

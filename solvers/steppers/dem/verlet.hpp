@@ -23,7 +23,7 @@ struct Motions {
   double contact_work = 0.0;   ///< on dynamic bodies [J]
   double boundary_work = 0.0;  ///< by bodies that move as told, through contacts [J]
   double force_work = 0.0;     ///< [J]
-  double fastest = 0.0;        ///< greatest speed of a point of a body [m/s]
+  double fastest = 0.0;        ///< greatest speed of a point of a body in the drift [m/s]
 };
 
 /// Moves the bodies of Slots.
