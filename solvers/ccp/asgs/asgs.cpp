@@ -155,6 +155,7 @@ void Asgs::backward(const Executor* executor) {
 // From x to the next iterate. The objective is known after both sweeps only.
 void Asgs::advance(bool both, const Executor* executor) {
   if (conjugate_) {
+    if (steps_.step().far()) keep_x();
     steps_.go(contacts_.bodies(), delassus_);
     block_momentum_.take_conjugate_step(blocks_, steps_.a(), steps_.b());
     blocks_.sweep(false);
@@ -216,10 +217,16 @@ void Asgs::plan_momentum(bool against) {
   if (options_.restart && against) theta_ = 1.0, beta_ = 0.0;
 }
 
-// After a pair that ended uphill; `before` is the objective that it began with.
+// Whether the last pair ended uphill, or its step did not what it promised; `before` is the objective that it began with.
+bool Asgs::failed(double before) const {
+  const double rounding = kRounding * std::abs(before);
+  return !(objective_ <= before + rounding) || (conjugate_ && !steps_.step().delivers(before - objective_, rounding));
+}
+
+// After a pair that failed; `before` is the objective that it began with.
 void Asgs::go_back(double before) {
   if (conjugate_) {
-    return_to_best();
+    return_to(steps_.step().far() ? x_kept_ : x_best_);
     ++undone_;
   } else if (beta_ > 0.0) {
     undo();
@@ -227,13 +234,19 @@ void Asgs::go_back(double before) {
   }
 }
 
-// What was best at the looks lies below the start: all pairs before this one went downhill.
-void Asgs::return_to_best() {
-  contacts_.set_impulses(x_best_);
-  delassus_.body_velocities(x_best_, w_);
+void Asgs::keep_x() {
+  x_kept_.resize(x_.size());
+  contacts_.impulses(x_kept_);
+  blocks_.impulses(x_kept_);
+}
+
+// What was best at the looks, and what was kept, lies below the start: all pairs before this one went downhill.
+void Asgs::return_to(std::span<const double> x) {
+  contacts_.set_impulses(x);
+  delassus_.body_velocities(x, w_);
   contacts_.set_velocities(w_);
-  blocks_.set_impulses(x_best_);
-  objective_ = delassus_.objective(x_best_);
+  blocks_.set_impulses(x);
+  objective_ = delassus_.objective(x);
   linear_ = objective_ - kinetic_energy() - block_momentum_.sums(blocks_).linear;
 }
 
@@ -306,7 +319,7 @@ void Asgs::descend(const SolveContext& context, SolveSummary& summary) {
     advance(both, context.executor);
     const int first = summary.iterations + 1;
     summary.iterations += both ? 2 : 1;
-    const bool uphill = both && !(objective_ <= before + kRounding * std::abs(before));
+    const bool uphill = both && failed(before);
     if (uphill) go_back(before);
     const bool looking = summary.iterations >= next_look || summary.iterations == context.max_iterations;
     if (looking) {

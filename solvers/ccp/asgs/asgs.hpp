@@ -86,7 +86,9 @@ class Asgs final : public CcpSolver {
   bool plan_single(bool uphill);
   void go_back(double before);
   void undo();
-  void return_to_best();
+  void keep_x();
+  void return_to(std::span<const double> x);
+  [[nodiscard]] bool failed(double before) const;
   double kinetic_energy();
   double objective();
   double residual(std::span<double> gamma);
@@ -114,7 +116,7 @@ class Asgs final : public CcpSolver {
   std::vector<Mat3> inertia_;     ///< per body [kg m2], world; empty when all are isotropic
   std::vector<AsgsSums> sums_;    ///< per chunk of the sweep
   std::vector<double> partial_;
-  std::vector<double> x_, x_best_;  ///< impulses [N s]
+  std::vector<double> x_, x_best_, x_kept_;  ///< impulses [N s]
   std::vector<Twist> w_;
   ConjugateSteps steps_;
   SingleSweep single_;

@@ -109,7 +109,8 @@ void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
   while (going && summary.residual > goal && summary.iterations + 2 <= context.max_iterations &&
          summary.iterations - found < std::max(kPatience * options_.check_interval, summary.iterations / 2)) {
     const double now = single_.advance(goal);
-    uphill = !(now <= before + kRounding * std::abs(before));
+    const double rounding = kRounding * std::abs(before);
+    uphill = !(now <= before + rounding) || (failures_ < kFailures && !single_.step().delivers(before - now, rounding));
     if (!uphill) before = now;
     summary.iterations += 2;
     const bool early =

@@ -1,5 +1,7 @@
 #include "conjugate_steps.hpp"
 
+#include <algorithm>
+
 #include "scree/math/mat3.hpp"
 
 namespace scree {
@@ -7,6 +9,12 @@ namespace {
 
 /// Directions closer to parallel than this share of their lengths' square span no plane.
 constexpr double kParallel = 1e-12;
+/// Of the bodies' energy: differences of velocities with less are rounding, and the impulses between them may be anything.
+constexpr double kNoise = 1e-30;
+/// Of the terms that make up a slope of the objective: slopes below are rounding, and so is the place of the minimum.
+constexpr double kFlat = 1e-14;
+/// Steps of so many pairs of sweeps must deliver this share of the gain that they promise, the test of trust regions.
+constexpr double kFar = 100.0, kShare = 0.1;
 /// A step that is so many times a pair of sweeps goes along impulses that change no velocity: the objective falls without end there, until
 /// a cone says stop. Impulses of that size would leave nothing but rounding of all others.
 constexpr double kFarthest = 1e8;
@@ -39,16 +47,22 @@ sweep::Body difference(const sweep::Body& p, const sweep::Body& q) {
 bool PlaneStep::choose(const Products& products, double linear_z, double linear_y, double linear_old) {
   const auto [dd, dp, pp, yd, yp, zz] = products;
   const double along_d = yd + linear_z - linear_y, along_p = yp + linear_y - linear_old;
-  const double determinant = dd * pp - dp * dp;
-  if (determinant > kParallel * dd * pp) {
+  const double determinant = dd * pp - dp * dp, noise = kNoise * zz;
+  if (dd <= noise || std::abs(along_d) <= kFlat * (std::abs(linear_z) + std::abs(linear_y))) return false;
+  if (pp > noise && determinant > kParallel * dd * pp) {
     a = (along_p * dp - along_d * pp) / determinant;
     b = (along_d * dp - along_p * dd) / determinant;
   } else {
-    a = dd > 0.0 ? -along_d / dd : 0.0;
+    a = -along_d / dd;
     b = 0.0;
   }
-  return a >= 1.0 && a <= kFarthest && std::isfinite(b);
+  gain = -0.5 * (a * along_d + b * along_p) - (0.5 * dd + along_d);
+  return a >= 1.0 && a <= kFarthest && std::abs(b) <= kFarthest;
 }
+
+bool PlaneStep::far() const { return std::max(a, std::abs(b)) > kFar; }
+
+bool PlaneStep::delivers(double fallen, double rounding) const { return !far() || fallen + rounding >= kShare * gain; }
 
 void ConjugateSteps::start(std::span<const sweep::Body> bodies, double linear) {
   y_.assign(bodies.begin(), bodies.end());

@@ -24,10 +24,16 @@ namespace scree {
 /// Where on the plane the objective is least, by the products below and r^T z, r^T y and r^T y_old [J].
 struct PlaneStep {
   double a = 1.0, b = 0.0;
+  double gain = 0.0;  ///< how far below z it is there, without cones [J]
   /// (d, d), (d, p), (p, p), (y, d), (y, p), (z, z) of d = z - y, p = y - y_old, in the norm of the masses [J].
   using Products = std::array<double, 6>;
   /// False where that is no step worth making.
   bool choose(const Products& products, double linear_z, double linear_y, double linear_old);
+  /// So far that it must prove itself: along impulses that change next to no velocity the objective falls until a cone says stop, and the
+  /// sweeps, which take back what cones forbid, leave the rest of them.
+  [[nodiscard]] bool far() const;
+  /// Whether the objective fell by `fallen` [J] as far as a step must; `rounding` [J] is nothing.
+  [[nodiscard]] bool delivers(double fallen, double rounding) const;
 };
 
 /// For contacts without compliance. Keeps its memory between solves.
@@ -38,6 +44,7 @@ class ConjugateSteps {
 
   [[nodiscard]] double a() const { return step_.a; }
   [[nodiscard]] double b() const { return step_.b; }
+  [[nodiscard]] const PlaneStep& step() const { return step_; }
   /// The next pair starts from z.
   void plain() { step_ = {}; }
   /// Takes in z: `bodies` have its velocities; `inertia` one a body [kg m2], or empty where all are isotropic. Returns

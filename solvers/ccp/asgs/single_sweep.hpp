@@ -34,6 +34,7 @@ class SingleSweep {
   [[nodiscard]] double missing() const { return missing_; }
   /// Chooses where the next pair starts: at z, where this is false.
   bool choose();
+  [[nodiscard]] const PlaneStep& step() const { return step_; }
   /// From here on a pair starts at z + beta (z - z_old), beta being set before each; at z first.
   void begin_momentum();
   void set_momentum(double beta) { beta_ = static_cast<float>(beta); }
