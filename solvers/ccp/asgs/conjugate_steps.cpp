@@ -14,7 +14,7 @@ constexpr double kNoise = 1e-30;
 /// Of the terms that make up a slope of the objective: slopes below are rounding, and so is the place of the minimum.
 constexpr double kFlat = 1e-14;
 /// Steps of so many pairs of sweeps must deliver this share of the gain that they promise, the test of trust regions.
-constexpr double kFar = 100.0, kShare = 0.1;
+constexpr double kFar = 30.0, kShare = 0.1;
 /// A step that is so many times a pair of sweeps goes along impulses that change no velocity: the objective falls without end there, until
 /// a cone says stop. Impulses of that size would leave nothing but rounding of all others.
 constexpr double kFarthest = 1e8;
