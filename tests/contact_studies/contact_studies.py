@@ -108,6 +108,17 @@ class Studies(WholeRuns):
         self.near(last["mean_normal_force"], weight, 1e-6 * weight)
         self.assertEqual(float(self.table("rest", "wear.csv")[-1]["volume"]), 0.0)
 
+    # Its weight breaks the weld in the first step; then it falls 0.3 mm, and never has more energy than that height gives.
+    def test_a_ball_whose_weld_breaks_lands_on_what_held_it(self):
+        ball = body("ball", "ball", (0.2, -0.1, RADIUS + 3e-4))
+        weld = 'name = "weld"\ntype = "fixed"\nbetween = ["plate", "ball"]\nposition = [0.2, -0.1, 0.0]\nbreaking_force = "0.05 N"\n'
+        self.run_scene(self.write("weld.toml", ball + "[[joint]]\n" + weld, 0.3), "weld")
+        weight = BALL * G
+        energies = [float(row["kinetic_energy"]) for row in self.table("weld", "steps.csv")]
+        self.assertGreater(max(energies), 0.5 * weight * 3e-4)
+        self.assertLess(max(energies), 1.01 * weight * 3e-4)
+        self.near(self.table("weld", "body_load.csv")[-1]["force_z"], -weight, 0.01 * weight)
+
     # A cube slides to rest: way v^2 / (2 mu g), V = k m g s / H; what friction takes is its energy. A step of 1 ms of 0.25 s.
     def test_a_sliding_cube_wears_as_archard_says(self):
         scene = self.write("slide.toml", body("cube", "cube", (-0.2, 0.1, 0.01), (1, 0, 0)), 0.4)
