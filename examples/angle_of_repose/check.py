@@ -7,8 +7,7 @@ from math import hypot
 
 from chart import Chart
 from checking import STEPPERS, Check
-from granular import frames
-from heap import angles, mean_and_error
+from heap import angles, grains, mean_and_error
 
 
 def sectors(check, stepper, friction, rolling, seed):
@@ -16,11 +15,10 @@ def sectors(check, stepper, friction, rolling, seed):
     run = check.run(f"{stepper}_{friction}_{rolling * 1e3:g}_{seed}", time_stepper__type=stepper, simulation__seed=seed,
                     material__glass__friction=friction, material__glass__rolling_friction=rolling)
     track = run.table("track.csv")
-    _, last = frames(track)[-1]
-    heap = [i for i in last if track["z"][i] > 0.0]
+    heap = grains(track)
     check.holds(f"{stepper}, friction {friction}: the heap covers the tray, what was too much is gone",
                 0 < len(heap) < len({b for b in track["id"]}) - 10, f"{len(heap)} grains")
-    return angles([(track["x"][i], track["y"][i], track["z"][i]) for i in heap])
+    return angles(heap)
 
 
 def grows(check, stepper, found):

@@ -1,11 +1,25 @@
-"""The angle of a heap around the axis z, sector by sector, so that one knows what it scatters by. Standard library only."""
+"""The angle of a heap around the axis z, sector by sector, so that one knows what it scatters by: heap.py RESULTS prints it.
 
+RESULTS is the folder of a run whose observer `track` saw the heap; its last look counts. Standard library only.
+"""
+
+import pathlib
+import sys
 from math import atan, atan2, degrees, floor, hypot, pi, sqrt
 
-from granular import line
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+
+from checking import Run
+from granular import frames, line
 
 GRAIN, INNER, OUTER = 5e-3, 0.005, 0.045  # [m]; radii between which the surface is a cone
 SECTORS = 6
+
+
+def grains(track):
+    """Middles [m] of the grains of a `track` table that lie on the tray at the end."""
+    _, rows = frames(track)[-1]
+    return [(track["x"][i], track["y"][i], track["z"][i]) for i in rows if track["z"][i] > 0.0]
 
 
 def tops(points):
@@ -32,3 +46,11 @@ def mean_and_error(values):
     """(mean, standard error)."""
     n, mean = len(values), sum(values) / len(values)
     return mean, sqrt(sum((v - mean) ** 2 for v in values) / (n - 1) / n)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    heap = grains(Run(sys.argv[1]).table("track.csv"))
+    angle, error = mean_and_error(angles(heap))
+    print(f"{len(heap)} grains, angle of repose {angle:.1f} +- {error:.1f} degrees")

@@ -16,6 +16,7 @@ namespace {
 using Point = Canvas::Point;
 
 constexpr double kSmall = 12.0, kNormal = 13.0, kLarge = 15.0;  // text sizes [px]
+constexpr double kPoint = 3.0;                                  // radius of a point [px]
 constexpr double kFillOpacity = 0.22;
 constexpr double kSwatch = 22.0, kPad = 8.0, kLegendRow = 19.0;  // of the legend [px]
 
@@ -46,9 +47,13 @@ class Painter {
     canvas_.fill({{0, 0}, {w, 0}, {w, h}, {0, h}}, {1, 1, 1});
     titles();
     grid();
-    canvas_.clip({left_, top_}, {right_, bottom_});
-    for (std::size_t i = 0; i < figure_.series.size(); ++i) series(figure_.series[i], pen(i));
-    canvas_.clip_end();
+    for (std::size_t i = 0; i < figure_.series.size(); ++i) {
+      // A point on the frame is drawn whole.
+      const double margin = figure_.series[i].style == SeriesStyle::points ? kPoint : 0.0;
+      canvas_.clip({left_ - margin, top_ - margin}, {right_ + margin, bottom_ + margin});
+      series(figure_.series[i], pen(i));
+      canvas_.clip_end();
+    }
     guides();
     canvas_.polyline({{left_, top_}, {left_, bottom_}, {right_, bottom_}, {right_, top_}, {left_, top_}}, kInk, 1.0);
     legend();
@@ -111,7 +116,7 @@ class Painter {
 
   // Full, then empty, then small.
   void point(Point at, const Pen& pen) {
-    canvas_.disc(at, pen.stroke == Stroke::dotted ? 1.8 : 3.0, pen.colour);
+    canvas_.disc(at, pen.stroke == Stroke::dotted ? 1.8 : kPoint, pen.colour);
     if (pen.stroke == Stroke::dashed) canvas_.disc(at, 1.6, kPaper);
   }
 
