@@ -64,7 +64,8 @@ std::vector<Variant> simple_variants(const std::vector<Parameter>& placed) {
       {"cylinder", "A cylinder about its z axis, solid or seen from inside.",
        std::vector<Parameter>{
            length("radius", "radius"), length("length", "full length along z"),
-           Parameter::boolean("hollow", "the inside is free, mantle and both lids are solid: a closed drum").by_default(false)} +
+           Parameter::boolean("hollow", "the inside is free, mantle and both lids are solid: a closed drum")
+               .by_default(false)} +
            placed},
       {"capsule", "A cylinder with round caps about its z axis.",
        std::vector<Parameter>{length("radius", "radius"), length("length", "length of the straight part along z")} +
