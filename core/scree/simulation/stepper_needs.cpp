@@ -43,6 +43,13 @@ void check_contact(const Parts& parts, const Options& contact, const ContactMate
   const std::string label = soft ? parts.law->info.label() : parts.stepper.info.label();
   const bool rolls = soft ? parts.law->plugin->resists_rolling() : parts.stepper.plugin->resists_rolling();
   const bool coheres = soft && parts.law->plugin->coheres();
+  // A law whose settings decide knows what to do better than what follows.
+  const auto* reader = soft ? dynamic_cast<const ContactReader*>(parts.law->plugin.get()) : nullptr;
+  if (reader != nullptr) {
+    if (const auto unread = reader->unread(values)) {
+      throw contact.error(unread->key, "is not zero, but " + label + " " + unread->sentence);
+    }
+  }
   const auto refuse = [&](const char* key, const char* what) {
     if (contact.number(key) == 0.0) return;
     throw contact.error(key, "is not zero, but " + label + " does not " + what + "; set it to 0 or take it away");
@@ -54,11 +61,6 @@ void check_contact(const Parts& parts, const Options& contact, const ContactMate
   if (!coheres) {
     refuse("surface_energy", "let bodies attract each other");
     refuse("cohesion_energy_density", "let bodies attract each other");
-  }
-  const auto* reader = soft ? dynamic_cast<const ContactReader*>(parts.law->plugin.get()) : nullptr;
-  if (reader == nullptr) return;
-  if (const auto unread = reader->unread(values)) {
-    throw contact.error(unread->key, "is not zero, but " + label + " " + unread->sentence);
   }
 }
 

@@ -30,12 +30,21 @@ double cohesion_of_pair(Cohesion cohesion, const ContactMaterial& pair) {
 }
 
 std::optional<UnreadValue> unread_cohesion(Cohesion cohesion, const ContactMaterial& pair, bool knows_modulus) {
-  if (cohesion == Cohesion::none || cohesion_of_pair(cohesion, pair) > 0.0) return {};
+  if (cohesion_of_pair(cohesion, pair) > 0.0) return {};
+  const std::string of_surfaces = knows_modulus ? "\"dmt\" or \"jkr\"" : "\"dmt\"";
+  if (cohesion == Cohesion::none) {
+    const auto unread = [](const char* key, const std::string& models) {
+      return UnreadValue{
+          key, "with cohesion = \"none\" does not read it; set cohesion to " + models + ", or the value to 0"};
+    };
+    if (pair.surface_energy > 0.0) return unread("surface_energy", of_surfaces);
+    if (pair.cohesion_energy_density > 0.0) return unread("cohesion_energy_density", "\"sced\"");
+    return {};
+  }
   if (cohesion == Cohesion::sced && pair.surface_energy > 0.0) {
     return UnreadValue{
         "surface_energy",
-        std::string{"with cohesion = \"sced\" reads cohesion_energy_density; give that, or set cohesion to "} +
-            (knows_modulus ? "\"dmt\" or \"jkr\"" : "\"dmt\"")};
+        "with cohesion = \"sced\" reads cohesion_energy_density; give that, or set cohesion to " + of_surfaces};
   }
   if (cohesion != Cohesion::sced && pair.cohesion_energy_density > 0.0) {
     const std::string word = cohesion == Cohesion::jkr ? "jkr" : "dmt";

@@ -30,7 +30,7 @@ enum class Cohesion { none, sced, dmt, jkr };
 [[nodiscard]] double cohesion_of_pair(Cohesion cohesion, const ContactMaterial& pair);
 
 /// The quantity of attraction of a pair that `cohesion` does not read, when the pair lacks the one that it reads: a scene may
-/// state both, and choose. `knows_modulus` as above.
+/// state both, and choose a model that reads one. `knows_modulus` as above.
 [[nodiscard]] std::optional<UnreadValue> unread_cohesion(Cohesion cohesion, const ContactMaterial& pair,
                                                          bool knows_modulus);
 

@@ -28,6 +28,18 @@ TEST(cohesion, is_content_with_the_quantity_that_it_reads) {
   }
 }
 
+TEST(cohesion, of_none_leaves_both_unread_and_says_what_reads_them) {
+  for (const ContactMaterial& pair : {kSurface, kBoth}) {
+    ASSERT_TRUE(unread_cohesion(Cohesion::none, pair, true));
+    EXPECT_EQ(unread_cohesion(Cohesion::none, pair, true)->key, "surface_energy");
+    EXPECT_NE(unread_cohesion(Cohesion::none, pair, true)->sentence.find("\"dmt\" or \"jkr\""), std::string::npos);
+  }
+  ASSERT_TRUE(unread_cohesion(Cohesion::none, kDensity, false));
+  EXPECT_EQ(unread_cohesion(Cohesion::none, kDensity, false)->key, "cohesion_energy_density");
+  EXPECT_NE(unread_cohesion(Cohesion::none, kDensity, false)->sentence.find("\"sced\""), std::string::npos);
+  EXPECT_FALSE(unread_cohesion(Cohesion::none, {.friction = 0.5}, true));
+}
+
 // A law without a modulus has no jkr, and does not advise it.
 TEST(cohesion, advises_what_the_law_has) {
   EXPECT_EQ(unread_cohesion(Cohesion::sced, kSurface, false)->sentence.find("jkr"), std::string::npos);
