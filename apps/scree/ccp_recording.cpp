@@ -7,25 +7,26 @@
 #include "run_to.hpp"
 #include "scree/base/error.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
+#include "scree/interfaces/time_stepper.hpp"
 #include "scree/simulation/simulation.hpp"
 
 namespace scree {
-namespace {
 
-Error usage(const std::string& option, const std::string& sentence) {
-  return Error{ErrorKind::usage, {option, 0, 0}, sentence};
+void check_poses_problems(const Simulation& simulation, const std::string& option) {
+  if (simulation.poses_contact_problems()) return;
+  const std::vector<PartInfo> parts = simulation.parts();
+  const auto find = [&](const char* kind) { return std::ranges::find(parts, kind, &PartInfo::kind); };
+  std::string sentence =
+      find(TimeStepper::kKind)->label() +
+      " poses no contact problem; take a stepper that does, such as dvi (--set time_stepper.type=dvi)";
+  if (find(CcpSolver::kKind) == parts.end()) sentence += ", and give the scene a [ccp_solver]";
+  throw Error{ErrorKind::usage, {option, 0, 0}, sentence};
 }
-
-}  // namespace
 
 CcpRecording::CcpRecording(const Simulation& simulation, const std::vector<double>& times, std::filesystem::path folder,
                            const std::string& option)
     : folder_{std::move(folder)} {
-  const std::vector<PartInfo> parts = simulation.parts();
-  const auto is_solver = [](const PartInfo& part) { return part.kind == CcpSolver::kKind; };
-  if (!times.empty() && std::none_of(parts.begin(), parts.end(), is_solver)) {
-    throw usage(option, "the scene has no [ccp_solver] and poses no contact problem");
-  }
+  if (!times.empty()) check_poses_problems(simulation, option);
   for (const double time : times) steps_.insert(step_at(time, simulation, option));
 }
 

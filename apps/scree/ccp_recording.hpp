@@ -11,11 +11,14 @@ namespace scree {
 
 class Simulation;
 
+/// Refuses a scene whose steps pose no contact problems that could be recorded. @throws Error (usage) that names `option`.
+void check_poses_problems(const Simulation& simulation, const std::string& option);
+
 /// The contact problems that a run was asked for: of the steps that end nearest to given times.
 class CcpRecording {
  public:
   /// `times` [s]; files go into `folder`. @throws Error (usage) that names `option` for a time that this run does not
-  /// reach, or has already passed, and for a scene without contact solver.
+  /// reach, or has already passed, and for a time stepper that poses no contact problems.
   CcpRecording(const Simulation& simulation, const std::vector<double>& times, std::filesystem::path folder,
                const std::string& option);
 

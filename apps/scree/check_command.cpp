@@ -31,8 +31,8 @@ void check(const CheckOptions& options) {
   }
   const std::size_t at_the_start = simulation.bodies().size();
   simulation.try_first_step();
-  say("{}: can run, {:.6g} s in steps of {:.6g} s; {} bodies at the start\n", options.scene.string(),
-      simulation.end_time(), simulation.time_step(), at_the_start);
+  say("{}: can run, {:.6g} s in steps of {:.6g} s; {} at the start\n", options.scene.string(), simulation.end_time(),
+      simulation.time_step(), counted(at_the_start, "body", "bodies"));
   for (const PartInfo& part : simulation.parts()) say("  {}\n", part.label_with_library());
   for (const std::string& line : simulation.log()) say("  {}\n", line);
 }

@@ -12,6 +12,7 @@
 #include "run_to.hpp"
 #include "say.hpp"
 #include "scene_plugins.hpp"
+#include "scree/ccp/count_contacts.hpp"
 #include "scree/config/scene_document.hpp"
 #include "scree/parallel/executor.hpp"
 #include "scree/results/csv.hpp"
@@ -42,6 +43,7 @@ std::vector<CcpRecord> record_problems(const CompareOptions& options, const Plug
                                        const SceneDocument& scene) {
   Simulation simulation{scene, host, {options.threads, {}, {}}};
   const std::vector<double> times = options.times.empty() ? std::vector{simulation.end_time()} : options.times;
+  check_poses_problems(simulation, "--vary ccp_solver");
   const CcpRecording recording{simulation, times, options.output, "--at"};
   ResultFolder::create(options.output, options.overwrite);
   const bool done =
@@ -83,10 +85,12 @@ std::vector<SolverTrial> try_solvers(const CompareOptions& options, const std::v
 }
 
 ReportTable table_of(const CcpRecord& record, const std::vector<SolverTrial>& trials) {
-  ReportTable table{fmt::format("step {} at {:.6g} s: {} bodies, {} contacts", record.origin.step, record.origin.time,
-                                record.inverse_mass.size(), record.contacts.size()),
-                    {"solver", "start", "status", "iterations", "residual [m/s]", "seconds", "ms/iteration"},
-                    {}};
+  const CcpProblem problem = record.problem();
+  ReportTable table{
+      fmt::format("step {} at {:.6g} s: {}, {}", record.origin.step, record.origin.time,
+                  counted(problem.bodies(), "body", "bodies"), counted(count_contacts(problem), "contact", "contacts")),
+      {"solver", "start", "status", "iterations", "residual [m/s]", "seconds", "ms/iteration"},
+      {}};
   for (const SolverTrial& trial : trials) {
     table.rows.push_back({trial.solver, start_name(trial), std::string{to_string(trial.summary.status)},
                           std::to_string(trial.summary.iterations), fmt::format("{:.3e}", trial.figures.residual),
@@ -118,7 +122,7 @@ class ComparisonLog {
 
   void add(const CcpRecord& record, const SolverTrial& trial) {
     table_.cell(record.origin.step).cell(record.origin.time);
-    table_.cell(std::uint64_t{record.inverse_mass.size()}).cell(std::uint64_t{record.contacts.size()});
+    table_.cell(std::uint64_t{record.inverse_mass.size()}).cell(std::uint64_t{count_contacts(record.problem())});
     table_.cell(trial.solver).cell(start_name(trial)).cell(to_string(trial.summary.status));
     table_.cell(static_cast<std::int64_t>(trial.summary.iterations)).cell(trial.figures.residual);
     table_.cell(trial.figures.relative_residual).cell(trial.figures.coulomb_error).cell(trial.figures.objective);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "plot/figure.hpp"
+#include "say.hpp"
+#include "scree/ccp/count_contacts.hpp"
 
 namespace scree {
 namespace {
@@ -11,8 +13,8 @@ namespace {
 plot::Figure figure_of(const CcpRecord& record, const std::vector<SolverTrial>& trials, bool warm, bool over_time) {
   plot::Figure figure;
   figure.title = warm ? "Convergence, from the impulses of the last step" : "Convergence, from zero impulses";
-  figure.note =
-      fmt::format("step {} at {:.6g} s: {} contacts", record.origin.step, record.origin.time, record.contacts.size());
+  figure.note = fmt::format("step {} at {:.6g} s: {}", record.origin.step, record.origin.time,
+                            counted(count_contacts(record.problem()), "contact", "contacts"));
   figure.x = {over_time ? "time [s]" : "iterations", plot::Scale::linear, {}};
   figure.y = {"residual [m/s]", plot::Scale::logarithmic, {}};
   for (const SolverTrial& trial : trials) {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "say.hpp"
 #include "scree/base/error.hpp"
+#include "scree/ccp/count_contacts.hpp"
 #include "scree/ccp/fclib/fclib_export.hpp"
 #include "scree/ccp/fclib/fclib_file.hpp"
+#include "scree/results/output_file.hpp"
 
 namespace scree {
 
@@ -35,13 +38,30 @@ ProblemFile::ProblemFile(const std::filesystem::path& file) {
 
 std::string ProblemFile::headline() const {
   if (!fclib_) {
-    return fmt::format("{} bodies, {} contacts, {} blocks, step {} at {:.6g} s", record_.inverse_mass.size(),
-                       record_.contacts.size(), record_.blocks.size(), record_.origin.step, record_.origin.time);
+    const CcpProblem problem = record_.problem();
+    const std::size_t contacts = count_contacts(problem);
+    return fmt::format("{}, {}, {}, step {} at {:.6g} s", counted(problem.bodies(), "body", "bodies"),
+                       counted(contacts, "contact", "contacts"),
+                       counted(problem.units() - contacts, "other block", "other blocks"), record_.origin.step,
+                       record_.origin.time);
   }
   const FclibProblem& problem = fclib_->source();
   return fmt::format("{}{}{} contacts of {} rows, {} bilateral constraints", problem.info.title,
                      problem.info.title.empty() ? "" : ": ", problem.contacts(), problem.rows_per_contact(),
                      problem.bilateral_rows());
+}
+
+void ProblemFile::check_solution_file(const std::filesystem::path& file) const {
+  const std::string ending = file.extension().string();
+  if (ending != ".hdf5" && ending != ".h5") {
+    throw Error{ErrorKind::usage,
+                {"--output", 0, 0},
+                "'" + file.string() +
+                    "' is to hold the problem and its answer as FCLIB does, which is an HDF5 file; end its name in "
+                    ".hdf5 or .h5"};
+  }
+  check_replaceable(file);
+  if (!fclib_) check_exportable(record_.problem());
 }
 
 void ProblemFile::write_solution(const std::filesystem::path& file, std::span<const double> gamma) const {

@@ -19,6 +19,9 @@ class ProblemFile {
   [[nodiscard]] const CcpRecord& record() const { return fclib_ ? fclib_->record() : record_; }
   /// What stands at the head of a report.
   [[nodiscard]] std::string headline() const;
+  /// Finds out before the solve whether write_solution() to `file` can do its work. @throws Error (usage) for a name that is not
+  /// that of an HDF5 file, and as write_solution().
+  void check_solution_file(const std::filesystem::path& file) const;
   /// Writes the problem with its answer, impulses of all rows [N s], as a file of FCLIB. @throws Error (io); (usage) for a
   /// problem with something that FCLIB does not know.
   void write_solution(const std::filesystem::path& file, std::span<const double> gamma) const;

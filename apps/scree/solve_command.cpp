@@ -70,6 +70,7 @@ void solve(const SolveOptions& options) {
   const Part<CcpSolver> solver = make_solver(host, options.solver, settings.root());
   (void)trial_settings({}, options.tolerance, options.max_iterations);  // wrong use first
   const ProblemFile problem{options.problem};
+  if (!options.output.empty()) problem.check_solution_file(options.output);
   const Executor executor{options.threads > 0 ? options.threads
                                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))};
   TrialSettings wanted = trial_settings(problem.record().origin, options.tolerance, options.max_iterations);

@@ -29,8 +29,8 @@ def heap():
     return text
 
 
-def scree(*arguments, folder):
-    return subprocess.run([SCREE, *arguments], cwd=folder, capture_output=True, text=True, timeout=300)
+def scree(*arguments, folder, timeout=300):
+    return subprocess.run([SCREE, *arguments], cwd=folder, capture_output=True, text=True, timeout=timeout)
 
 
 class CcpFiles(unittest.TestCase):
@@ -101,6 +101,35 @@ class CcpFiles(unittest.TestCase):
         result = scree("solve", "cut.h5", "--solver", "pgs", folder=self.work)
         self.assertEqual(result.returncode, 4)
         self.assertIn("cut.h5 is damaged or cut short", result.stderr)
+
+    def test_an_answer_that_cannot_be_kept_is_refused_before_the_solve(self):
+        (self.work / "folder.hdf5").mkdir()
+        refusals = {"nowhere/answer.hdf5": (4, "cannot create nowhere/answer.hdf5: No such file or directory; make its folder "
+                                               "first, or choose another one."),
+                    "folder.hdf5": (4, "cannot write folder.hdf5: Is a directory."),
+                    "answer.csv": (2, "--output: 'answer.csv' is to hold the problem and its answer as FCLIB does, which is "
+                                      "an HDF5 file; end its name in .hdf5 or .h5")}
+        for name, (code, sentence) in refusals.items():
+            # The solve itself would never end: it is asked for a residual of zero.
+            result = scree("solve", f"out/ccp_{STEP}.h5", "--solver", "jacobi", "--tolerance", "0", "--max-iterations",
+                           "1000000000", "-o", name, folder=self.work, timeout=60)
+            self.assertEqual((result.returncode, result.stderr), (code, f"scree: error: {sentence}\n"))
+        self.assertEqual(list(self.work.glob("*.part")), [])
+
+    def test_contacts_that_roll_count_as_contacts(self):
+        # They are blocks of six rows in the problem; the step counts what collision found.
+        rolls = ("--set", "material.grain.rolling_friction=0.1 mm")
+        run = scree("run", "scene.toml", "-o", "rolls", "--quiet", "--end-time", "0.05", "--record-ccp", "t=0.05", *rolls,
+                    folder=self.work)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.work / "rolls" / "steps.csv") as table:
+            contacts = list(csv.DictReader(table))[-1]["contacts"]
+        self.assertGreater(int(contacts), 1)
+        self.assertEqual(json.loads((self.work / "rolls" / "run.json").read_text())["contacts"], int(contacts))
+        solve = scree("solve", "rolls/ccp_50.h5", "--solver", "pgs", folder=self.work)
+        self.assertIn(f" {contacts} contacts, 0 other blocks, step 50", solve.stdout)
+        _, rows = self.table("--vary", "ccp_solver=pgs", "--at", "0.05", *rolls)
+        self.assertEqual({row["contacts"] for row in rows}, {contacts})
 
     def table(self, *arguments):
         """comparison.csv of a comparison in a folder of its own."""

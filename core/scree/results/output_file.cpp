@@ -26,6 +26,8 @@ std::string_view advice(int error_number) {
     case EACCES:
     case EROFS:
       return "; choose a folder that you may write to";
+    case ENOENT:
+      return "; make its folder first, or choose another one";
     default:
       return "";
   }
@@ -115,6 +117,17 @@ void replace_file(const std::filesystem::path& file, std::span<const std::byte> 
     std::filesystem::remove(temporary, ignored);
     throw;
   }
+}
+
+void check_replaceable(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) throw Error{ErrorKind::io, system_failure("write", file, EISDIR)};
+  std::filesystem::path temporary = file;
+  temporary += kPartOfFile;
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw Error{ErrorKind::io, system_failure("create", file, errno)};
+  ::close(descriptor);
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
 }
 
 void replace_file(const std::filesystem::path& file, std::string_view text) {

@@ -46,6 +46,10 @@ class OutputFile {
 void replace_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
+/// Finds out before long work whether replace_file() could create `file`: there is a folder, it may be written to, and no folder
+/// has that name. Leaves nothing behind. @throws Error (io).
+void check_replaceable(const std::filesystem::path& file);
+
 /// What replace_file() puts behind the name while it writes.
 inline constexpr const char* kPartOfFile = ".part";
 

@@ -80,6 +80,7 @@ void Simulation::State::advance_fields(double end) {
   const PhaseTimer::Scope scope{timer, Phase::fields};
   for (const Part<ForceField>& field : parts.forces) {
     if (field.plugin->is_steady()) continue;  // and contacts need not be told for its sake
+    services->serve(field.info);
     guarded(field.info, ErrorKind::diverged, [&] {
       field.plugin->advance(bodies.view(), parts.stepper.plugin->contacts(), bodies.attributes(), end, time_step);
     });
@@ -91,6 +92,7 @@ void Simulation::State::observe() {
   if (parts.observers.empty()) return;
   const Observation now = observation(steps + 1);
   for (const Part<Observer>& observer : parts.observers) {
+    services->serve(observer.info);
     guarded(observer.info, ErrorKind::diverged, [&] { observer.plugin->observe(now, bodies.attributes()); });
   }
 }
@@ -103,6 +105,7 @@ void Simulation::State::remove_bodies(double at) {
   std::vector<char> before;
   for (const Part<Sink>& sink : parts.sinks) {
     before = leaving;
+    services->serve(sink.info);
     guarded(sink.info, ErrorKind::diverged, [&] { sink.plugin->mark(view, at, leaving); });
     for (std::size_t i = 0; i < view.size(); ++i) {
       if (view.motion[i] != Motion::dynamic) leaving[i] = 0;
@@ -205,6 +208,7 @@ void Simulation::finish() {
   const PhaseTimer::Scope scope{s.timer, Phase::observers};
   const Observation last = s.observation(s.steps);
   for (const Part<Observer>& observer : s.parts.observers) {
+    s.services->serve(observer.info);
     guarded(observer.info, ErrorKind::io, [&] { observer.plugin->finish(last); });
   }
 }
@@ -219,6 +223,7 @@ const BodyStore& Simulation::bodies() const { return state_->bodies; }
 const Materials& Simulation::materials() const { return state_->model.materials; }
 const ShapeSet& Simulation::shapes() const { return state_->model.shapes; }
 const CollisionFilter& Simulation::collision_filter() const { return state_->pipeline->filter(); }
+bool Simulation::poses_contact_problems() const { return state_->parts.stepper.plugin->needs_ccp_solver(); }
 const Machine& Simulation::machine() const { return *state_->machine; }
 const FeedRecord& Simulation::feed() const { return state_->feed; }
 PhaseTimer& Simulation::timer() { return state_->timer; }

@@ -70,6 +70,8 @@ class Simulation {
   [[nodiscard]] const ShapeSet& shapes() const;
   /// Who meets whom.
   [[nodiscard]] const CollisionFilter& collision_filter() const;
+  /// True when steps solve contact problems, false when their contacts are soft.
+  [[nodiscard]] bool poses_contact_problems() const;
   /// Joints and motors; empty without.
   [[nodiscard]] const Machine& machine() const;
   [[nodiscard]] const FeedRecord& feed() const;

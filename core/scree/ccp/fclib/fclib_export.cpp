@@ -129,6 +129,11 @@ std::vector<MatrixEntry> entries_of(const CcpProblem& problem) {
 
 }  // namespace
 
+void check_exportable(const CcpProblem& problem) {
+  FclibProblem ignored;
+  (void)order_of(problem, ignored);
+}
+
 FclibProblem export_to_fclib(const CcpProblem& problem, std::span<const double> gamma) {
   FclibProblem out;
   const Order order = order_of(problem, out);

@@ -13,4 +13,7 @@ namespace scree {
 /// spinning friction, contacts of different numbers of rows.
 [[nodiscard]] FclibProblem export_to_fclib(const CcpProblem& problem, std::span<const double> gamma);
 
+/// Finds what export_to_fclib() would refuse, at no cost. @throws Error (usage) as it does.
+void check_exportable(const CcpProblem& problem);
+
 }  // namespace scree
