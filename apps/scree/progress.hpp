@@ -13,13 +13,15 @@ struct ProgressState {
   double end_time = 0.0;  ///< [s]
   std::uint64_t bodies = 0;
   std::uint64_t contacts = 0;
-  int iterations = 0;      ///< of the solver, last step
+  int iterations = 0;      ///< of the solver, last step; sub-steps where no contact problem is solved
   double residual = 0.0;   ///< of the solver, last step [m/s]
   double wall_time = 0.0;  ///< since the run began [s]
+  bool is_soft = false;    ///< no contact problem is solved
 };
 
 /// One line: "1.250 of 5.000 s (25 %), 12034 bodies, 30211 contacts, 100 iterations, residual 3.1e-04 m/s, 0.021 x
-/// real time, 3 min 2 s left". `start_time` [s] is where the run began, not 0 for a resumed one.
+/// real time, 3 min 2 s left"; of a run with soft contacts "45 sub-steps" in place of iterations and residual. `start_time` [s]
+/// is where the run began, not 0 for a resumed one.
 [[nodiscard]] std::string progress_line(const ProgressState& now, double start_time);
 
 /// A duration for people: "45 s", "3 min 2 s", "2 h 5 min". `seconds` [s].

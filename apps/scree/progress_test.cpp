@@ -13,6 +13,12 @@ TEST(progress, a_line_tells_share_speed_and_time_left) {
             "time, 3 min 0 s left");
 }
 
+TEST(progress, a_line_of_soft_contacts_tells_sub_steps) {
+  const ProgressState now{1.25, 5.0, 12034, 30211, 45, 0.0, 60.0, true};
+  EXPECT_EQ(progress_line(now, 0.0),
+            "1.25 of 5 s (25 %), 12034 bodies, 30211 contacts, 45 sub-steps, 0.021 x real time, 3 min 0 s left");
+}
+
 TEST(progress, a_resumed_run_counts_from_where_it_began) {
   // From 4 s to 5 s, half of it done in 10 s: 10 s more, 0.05 of real time.
   const ProgressState now{4.5, 5.0, 1, 0, 0, 0.0, 10.0};

@@ -34,6 +34,7 @@ Run::Run(Simulation& simulation, const RunOptions& options)
       step_log_{options.output / kStepsFile, phase_names()},
       removed_log_{options.output / kRemovedFile, simulation.materials()},
       progress_{options.quiet, simulation.time(), simulation.end_time()},
+      statistics_{!simulation.poses_contact_problems()},
       recording_{simulation, options.record_ccp, options.output, "--record-ccp"},
       last_checkpoint_{simulation.time()},
       record_{describe(simulation, options)} {
@@ -43,7 +44,7 @@ Run::Run(Simulation& simulation, const RunOptions& options)
 int Run::to_the_end() {
   const InterruptWatch watch;
   try {
-    for (const std::string& sentence : simulation_.warnings()) warn(sentence);
+    tell_warnings();
     const bool had_nothing_to_do = simulation_.is_done();
     const bool done = steps_to_the_end(watch);
     const std::string outcome =
@@ -58,6 +59,7 @@ int Run::to_the_end() {
     return exit_code;
   } catch (const Error& failure) {
     progress_.end_line();
+    tell_warnings();
     if (!finish_failed(failure)) throw;
     std::string where = fmt::format("{}; the last good state, at {:.6g} s, is in {}, without what contacts remember",
                                     failure.what(), simulation_.time(), (options_.output / kLastStateFile).string());
@@ -91,7 +93,15 @@ void Run::after_step(const StepRecord& step) {
   if (interval > 0.0 && simulation_.time() - last_checkpoint_ > interval - 0.5 * simulation_.time_step()) {
     save_checkpoint();
   }
+  tell_warnings();
   progress_.update(progress_state(step));
+}
+
+void Run::tell_warnings() {
+  for (const std::string& sentence : log_watch_.news(simulation_.log())) {
+    progress_.end_line();
+    warn(sentence);
+  }
 }
 
 void Run::report_recording() const {
@@ -117,10 +127,14 @@ void Run::finish(int exit_code, const std::string& outcome) {
   // Before the observers end: what continues from here finds them in the middle of their work.
   save_checkpoint();
   simulation_.finish();
+  tell_warnings();
   step_log_.close();
   removed_log_.close();
   if (joint_log_) joint_log_->close();
   write_record(exit_code, outcome);
+  if (log_watch_.untold() > 0) {
+    warn(fmt::format("{} more in {}, under \"log\"", log_watch_.untold(), (options_.output / kRunFile).string()));
+  }
 }
 
 /// Saves what can be saved, and tells whether the last good state is. A second failure, on a full disk say, would only hide
@@ -168,7 +182,9 @@ void Run::print_end(const std::string& outcome) const {
   say("\n{}", to_text(work_table(statistics_, simulation_.timer())));
   if (options_.profile) say("\n{}", to_text(phase_table(simulation_.timer())));
   report_recording();
-  say("\n{}, {} steps in {}, state {}; results in {}\n", outcome, record_.steps, duration_text(record_.wall_time),
+  std::string steps = fmt::format("{} steps", record_.steps);
+  if (statistics_.is_soft()) steps += fmt::format(" of {:.4g} sub-steps", statistics_.mean_sub_steps());
+  say("\n{}, {} in {}, state {}; results in {}\n", outcome, steps, duration_text(record_.wall_time),
       to_hex(record_.state_hash), options_.output.string());
 }
 
@@ -177,9 +193,14 @@ double Run::wall_time() const {
 }
 
 ProgressState Run::progress_state(const StepRecord& step) const {
-  return {
-      step.time,  simulation_.end_time(), step.bodies, step.contacts, static_cast<int>(step.iterations), step.residual,
-      wall_time()};
+  return {step.time,
+          simulation_.end_time(),
+          step.bodies,
+          step.contacts,
+          static_cast<int>(step.iterations),
+          step.residual,
+          wall_time(),
+          !simulation_.poses_contact_problems()};
 }
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 
 #include "ccp_recording.hpp"
 #include "interrupt.hpp"
+#include "log_watch.hpp"
 #include "progress.hpp"
 #include "run_options.hpp"
 #include "run_statistics.hpp"
@@ -32,6 +33,7 @@ class Run {
  private:
   bool steps_to_the_end(const InterruptWatch& watch);
   void after_step(const StepRecord& step);
+  void tell_warnings();
   void save_checkpoint();
   void report_recording() const;
   void finish(int exit_code, const std::string& outcome);
@@ -48,8 +50,9 @@ class Run {
   RemovedLog removed_log_;
   std::optional<JointLog> joint_log_;  // of scenes with joints
   Progress progress_;
-  CcpRecording recording_;
+  LogWatch log_watch_;
   RunStatistics statistics_;
+  CcpRecording recording_;
   double last_checkpoint_;       // simulated time [s]
   bool has_checkpoint_ = false;  // of this run
   RunRecord record_;

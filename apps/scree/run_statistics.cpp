@@ -34,6 +34,7 @@ void RunStatistics::add(const StepRecord& step) {
   most_contacts_ = std::max(most_contacts_, step.contacts);
   most_bodies_ = std::max(most_bodies_, step.bodies);
   fallbacks_ += step.fallbacks;
+  if (is_soft_) sub_steps_ += static_cast<double>(step.iterations);
   if (step.contacts == 0) return;
   ++steps_in_contact_;
   const auto contacts = static_cast<double>(step.contacts);
@@ -45,17 +46,24 @@ void RunStatistics::add(const StepRecord& step) {
   max_penetration_ = std::max(max_penetration_, step.max_penetration);
 }
 
+double RunStatistics::mean_sub_steps() const { return over(sub_steps_, steps_); }
+
 std::vector<std::pair<std::string, double>> RunStatistics::measures() const {
-  return {{"most_bodies", static_cast<double>(most_bodies_)},
-          {"most_contacts", static_cast<double>(most_contacts_)},
-          {"mean_contacts", over(contacts_, steps_)},
-          {"mean_iterations", over(iterations_, steps_in_contact_)},
-          {"mean_residual [m/s]", over(residual_, steps_in_contact_)},
-          {"largest_residual [m/s]", largest_residual_},
-          {"mean_penetration_over_radius", contacts_ > 0.0 ? mean_penetration_ / contacts_ : 0.0},
-          {"max_penetration [m]", max_penetration_},
-          {"narrow_phase_fallbacks", static_cast<double>(fallbacks_)},
-          {"peak_memory [byte]", peak_memory()}};
+  std::vector<std::pair<std::string, double>> all{{"most_bodies", static_cast<double>(most_bodies_)},
+                                                  {"most_contacts", static_cast<double>(most_contacts_)},
+                                                  {"mean_contacts", over(contacts_, steps_)}};
+  if (is_soft_) {
+    all.emplace_back("mean_sub_steps", mean_sub_steps());
+  } else {
+    all.emplace_back("mean_iterations", over(iterations_, steps_in_contact_));
+    all.emplace_back("mean_residual [m/s]", over(residual_, steps_in_contact_));
+    all.emplace_back("largest_residual [m/s]", largest_residual_);
+  }
+  all.emplace_back("mean_penetration_over_radius", contacts_ > 0.0 ? mean_penetration_ / contacts_ : 0.0);
+  all.emplace_back("max_penetration [m]", max_penetration_);
+  all.emplace_back("narrow_phase_fallbacks", static_cast<double>(fallbacks_));
+  all.emplace_back("peak_memory [byte]", peak_memory());
+  return all;
 }
 
 ReportTable work_table(const RunStatistics& statistics, const PhaseTimer& timer) {
@@ -71,7 +79,7 @@ ReportTable work_table(const RunStatistics& statistics, const PhaseTimer& timer)
     return fmt::format("{:.1f}", sum > 0.0 ? 100.0 * part / sum : 0.0);
   };
   table.rows.push_back({"time for collision [%]", share({Phase::collision})});
-  table.rows.push_back({"time for the solver [%]", share({Phase::solver})});
+  if (!statistics.is_soft()) table.rows.push_back({"time for the solver [%]", share({Phase::solver})});
   table.rows.push_back({"time for fields [%]", share({Phase::forces, Phase::fields})});
   table.rows.push_back({"time for output [%]", share({Phase::observers, Phase::output})});
   return table;

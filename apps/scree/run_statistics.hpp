@@ -15,12 +15,18 @@ namespace scree {
 /// Means and extremes over the steps of a run.
 class RunStatistics {
  public:
+  /// `is_soft`: no contact problem is solved, and steps are divided into sub-steps.
+  explicit RunStatistics(bool is_soft) : is_soft_{is_soft} {}
   void add(const StepRecord& step);
   /// Name with unit, and value.
   [[nodiscard]] std::vector<std::pair<std::string, double>> measures() const;
   [[nodiscard]] const StepRecord& last() const { return last_; }
+  [[nodiscard]] bool is_soft() const { return is_soft_; }
+  /// Over all steps; 0 where contact problems are solved [1].
+  [[nodiscard]] double mean_sub_steps() const;
 
  private:
+  bool is_soft_;
   StepRecord last_;
   std::uint64_t steps_ = 0;
   std::uint64_t steps_in_contact_ = 0;
@@ -28,6 +34,7 @@ class RunStatistics {
   std::uint64_t most_bodies_ = 0;
   std::uint64_t fallbacks_ = 0;
   double contacts_ = 0.0;          // sum over steps [1]
+  double sub_steps_ = 0.0;         // sum over steps [1]
   double iterations_ = 0.0;        // sum over steps with contacts [1]
   double residual_ = 0.0;          // sum over steps with contacts [m/s]
   double largest_residual_ = 0.0;  // [m/s]
@@ -36,7 +43,7 @@ class RunStatistics {
 };
 
 /// What the contacts cost and how well they were solved, for the terminal: numbers of the measures above, each with its
-/// unit, and the shares of the wall time.
+/// unit, and the shares of the wall time, that of the solver where there is one.
 [[nodiscard]] ReportTable work_table(const RunStatistics& statistics, const PhaseTimer& timer);
 
 /// Per material: fed, in flight, removed, by number and mass. In flight is counted from the bodies themselves.

@@ -7,8 +7,10 @@ A case is a TOML file:
     exit = 2                   its exit code
     error = "..."              all of standard error
     output = ["...", ...]      lines that standard output must hold, optional
+    absent = ["...", ...]      texts that standard output must not hold, optional
     made = {"out/x" = true}    files that must exist afterwards, or must not, optional
     record = {key = value}     entries of out/run.json, optional
+    measures = {key = value}   entries of its `measures`, optional
     largest_file = 1000        bytes that a file may have, as if the disk were full, optional
     standard_output = "..."    a file that takes standard output, optional
     [files]                    name = contents
@@ -73,16 +75,20 @@ class Golden(unittest.TestCase):
         result = self.run_scree()
         self.assertEqual(self.shortened(result.stderr).strip(), self.shortened(self.case.get("error", "")).strip())
         self.assertEqual(result.returncode, self.case["exit"])
-        if "output" in self.case:
+        if "output" in self.case or "absent" in self.case:
             written = (self.work / "stdout.txt").read_text()
-            for line in self.case["output"]:
+            for line in self.case.get("output", []):
                 self.assertIn(line, written)
+            for text in self.case.get("absent", []):
+                self.assertNotIn(text, written)
         for name, exists in self.case.get("made", {}).items():
             self.assertEqual((self.work / name).exists(), exists, name)
-        if "record" in self.case:
+        if "record" in self.case or "measures" in self.case:
             record = json.loads((self.work / "out" / "run.json").read_text())
-            for key, value in self.case["record"].items():
+            for key, value in self.case.get("record", {}).items():
                 self.assertEqual(record[key], value, key)
+            for key, value in self.case.get("measures", {}).items():
+                self.assertEqual(record["measures"][key], value, key)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ struct StepRecord {
   double time = 0.0;              ///< at the end of the step [s]
   std::uint64_t bodies = 0;       ///< dynamic ones
   std::uint64_t contacts = 0;     ///< given to the solver
-  std::uint64_t iterations = 0;   ///< of the solver
+  std::uint64_t iterations = 0;   ///< of the solver; sub-steps where no contact problem is solved
   double residual = 0.0;          ///< of the solver, as core judges it [m/s]
   std::string status;             ///< of the solver: "converged", ...
   double mean_penetration = 0.0;  ///< over closed contacts, relative to the smaller body's radius [1]

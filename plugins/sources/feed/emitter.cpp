@@ -89,10 +89,11 @@ void Emitter::tell_of_backlog(double time) {
   if (!(backlog() > a_second)) return;
   told_ = true;
   char text[160];
-  std::snprintf(text, sizeof text,
-                "at %.4g s %.0f particles are due and find no place, more than a second of the feed; make the outlet "
-                "larger or the particles faster",
-                time, backlog());
+  std::snprintf(
+      text, sizeof text,
+      "warning: at %.4g s %.0f particles are due and find no place, more than a second of the feed; make the outlet "
+      "larger or the particles faster",
+      time, backlog());
   services_->log(text);
 }
 
