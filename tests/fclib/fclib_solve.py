@@ -75,6 +75,12 @@ class FclibSolve(unittest.TestCase):
             ("negative_mu", "negative_mu.hdf5: /fclib_local/vectors/mu has -0.5 at entry 0; friction is not negative"),
             ("index", "index.hdf5: /fclib_local/W/i has 3 at entry 0; the matrix has 3 rows, counted from 0"),
             ("sizes", "sizes.hdf5: /fclib_local/vectors/mu has 2 numbers for 3 rows of contacts; 3 rows a contact are needed"),
+            ("pulls", "pulls.hdf5: /fclib_local/W is not positive semidefinite: an eigenvalue of the symmetric part is -0.25 "
+                      "or less, and the largest number of the diagonal 0.5; what masses make has none below zero, so look "
+                      "for rows with a wrong sign or of another problem"),
+            ("no_mass", "no_mass.hdf5: /fclib_global/M is not positive definite: elimination leaves 0 on the diagonal of "
+                        "row 3, counted from 0; a mass matrix leaves positive numbers, so mend the masses and inertias of "
+                        "that degree of freedom, or take it out"),
             ("missing", "missing.hdf5: /fclib_local/vectors/q is missing; an FCLIB problem needs it"),
             ("cut", "cut.hdf5 is damaged or cut short; a contact problem of scree or of FCLIB is needed"),
             ("text", "text.hdf5 is not an HDF5 file; a contact problem of scree or of FCLIB is needed"),

@@ -35,6 +35,12 @@ void write_bad(const fs::path& folder) {
   problem = sliding();
   problem.mu.push_back(0.5);
   write_fclib_file(folder / "sizes.hdf5", problem);
+  problem = sliding();
+  std::get<FclibLocal>(problem.form).W.entries[2].value = -0.25;
+  write_fclib_file(folder / "pulls.hdf5", problem);
+  problem = test::small_global();
+  std::get<FclibGlobal>(problem.form).M.entries[3].value = 0.0;
+  write_fclib_file(folder / "no_mass.hdf5", problem);
   write_fclib_file(folder / "missing.hdf5", sliding());
   const hid_t opened = H5Fopen((folder / "missing.hdf5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   H5Ldelete(opened, "/fclib_local/vectors/q", H5P_DEFAULT);

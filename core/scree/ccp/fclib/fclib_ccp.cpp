@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "scree/base/error.hpp"
+#include "scree/ccp/fclib/detail/definite.hpp"
 
 namespace scree {
 
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
+using Sparse = SparseMatrix;
 using Vector = Eigen::VectorXd;
 
 /// An FCLIB problem says nothing of when to stop.
@@ -39,23 +40,33 @@ Vector to_eigen(std::span<const double> values) {
 
 std::vector<double> to_vector(const Vector& values) { return {values.data(), values.data() + values.size()}; }
 
-/// M^-1: Cholesky where M is symmetric, else LU.
+[[noreturn]] void fail_asymmetric(const std::string& file, const char* name, double skew) {
+  throw Error{
+      ErrorKind::io,
+      fmt::format("{}: /{} is not symmetric: numbers that should be the same differ by {:.2g} of the largest; a "
+                  "contact problem has a symmetric one",
+                  file, name, skew)};
+}
+
+/// M^-1 of a mass matrix, whose symmetric part has to be positive definite: Cholesky where M is symmetric, else LU.
 class MassSolver {
  public:
   MassSolver(const Sparse& mass, const std::string& file) {
-    const auto fail = [&](const char* what) {
-      throw Error{ErrorKind::io, file + ": /fclib_global/M is " + what + "; a mass matrix is positive definite"};
-    };
-    const Sparse transposed = mass.transpose();
-    const double scale = mass.nonZeros() > 0 ? mass.coeffs().cwiseAbs().maxCoeff() : 0.0;
-    symmetric_ = (mass - transposed).norm() <= kRounding * scale;
+    const double skew = asymmetry(mass);
+    if (skew > kMostAsymmetry) fail_asymmetric(file, "fclib_global/M", skew);
+    if (const auto bad = find_bad_pivot(symmetric_part(mass))) {
+      throw Error{
+          ErrorKind::io,
+          fmt::format("{}: /fclib_global/M is not positive definite: elimination leaves {:.3g} on the diagonal of "
+                      "row {}, counted from 0; a mass matrix leaves positive numbers, so mend the masses and "
+                      "inertias of that degree of freedom, or take it out",
+                      file, bad->pivot, bad->row)};
+    }
+    symmetric_ = skew <= kRounding;
     if (symmetric_) {
       cholesky_.compute(mass);
-      if (cholesky_.info() != Eigen::Success) fail("singular");
-      if (mass.rows() > 0 && !(cholesky_.vectorD().minCoeff() > 0.0)) fail("not positive definite");
     } else {
       lu_.compute(mass);
-      if (lu_.info() != Eigen::Success) fail("singular");
     }
   }
   template <class Right>
@@ -115,7 +126,8 @@ struct FclibCcp::Reduction {
 
   void make_blocks();
   void reduce(const std::string& file);
-  void make_record(const std::string& file);
+  void require_semidefinite(const FclibLocal& local, const std::string& file) const;
+  void make_record();
 };
 
 void FclibCcp::Reduction::make_blocks() {
@@ -146,6 +158,7 @@ void FclibCcp::Reduction::reduce(const std::string& file) {
     r = local->q;
     r.insert(r.end(), local->s.begin(), local->s.end());
     matrix = to_eigen(FclibMatrix{.rows = r.size(), .columns = r.size(), .entries = entries_of(*local)});
+    require_semidefinite(*local, file);
     return;
   }
   const auto& global = std::get<FclibGlobal>(source.form);
@@ -160,19 +173,30 @@ void FclibCcp::Reduction::reduce(const std::string& file) {
   r = to_vector(to_eigen(constants) + jacobian.transpose() * free_motion);
 }
 
-void FclibCcp::Reduction::make_record(const std::string& file) {
+// W = H^T M^-1 H and what V and R add to it have no eigenvalue below zero; otherwise an objective has no bottom, and solvers
+// follow it down for ever. The N of a global problem needs no look: M has had one.
+void FclibCcp::Reduction::require_semidefinite(const FclibLocal& local, const std::string& file) const {
+  const double skew = asymmetry(matrix);
+  if (skew > kMostAsymmetry) fail_asymmetric(file, "fclib_local/W", skew);
+  std::optional<Indefinite> bad = find_indefinite(symmetric_part(matrix));
+  if (!bad) return;
+  const auto of_w = local.V.columns > 0 ? find_indefinite(symmetric_part(to_eigen(local.W))) : bad;
+  const char* const name = of_w ? "/fclib_local/W is" : "/fclib_local/W, V and R make a matrix [W V; V^T R] that is";
+  if (of_w) bad = of_w;
+  throw Error{
+      ErrorKind::io,
+      fmt::format("{}: {} not positive semidefinite: an eigenvalue of the symmetric part is {:.3g} or less, and the "
+                  "largest number of the diagonal {:.3g}; what masses make has none below zero, so look for rows "
+                  "with a wrong sign or of another problem",
+                  file, name, bad->eigenvalue, bad->diagonal)};
+}
+
+void FclibCcp::Reduction::make_record() {
   std::vector<MatrixEntry> entries = entries_of(matrix);
   for (MatrixEntry& e : entries) e = {row_of[e.row], row_of[e.column], e.value};
   record.matrix = make_matrix(record.blocks, entries);
   record.r.assign(record.problem().rows(), 0.0);
   for (std::size_t k = 0; k < r.size(); ++k) record.r[row_of[k]] = r[k];
-  const double skew = asymmetry(record.matrix.view(), record.blocks);
-  if (skew > kMostAsymmetry) {
-    throw Error{ErrorKind::io,
-                fmt::format("{}: /{} is not symmetric: numbers that should be the same differ by {:.2g} of the "
-                            "largest; a contact problem has a symmetric one",
-                            file, source.global() ? "fclib_global/M" : "fclib_local/W", skew)};
-  }
   record.origin.tolerance = kTolerance;
   record.origin.max_iterations = kMaxIterations;
 }
@@ -181,7 +205,7 @@ FclibCcp::FclibCcp(FclibProblem problem, const std::string& file) : reduction_{s
   reduction_->source = std::move(problem);
   reduction_->make_blocks();
   reduction_->reduce(file);
-  reduction_->make_record(file);
+  reduction_->make_record();
   const auto& guesses = reduction_->source.guesses;
   reduction_->record.guess =
       guesses.empty() ? std::vector<double>(reduction_->record.r.size(), 0.0) : impulses(guesses[0]);

@@ -19,8 +19,9 @@ namespace scree {
 /// A problem of FCLIB as a contact problem.
 class FclibCcp {
  public:
-  /// `problem` as read_fclib_file() gives it; `file` for messages. @throws Error (io) when M is singular or a matrix is
-  /// further from symmetric than rounding and gyroscopic terms explain.
+  /// `problem` as read_fclib_file() gives it; `file` for messages. @throws Error (io) when the symmetric part of M is not
+  /// positive definite or that of [W V; V^T R] not positive semidefinite, and when M or W is further from symmetric than
+  /// rounding and gyroscopic terms explain.
   FclibCcp(FclibProblem problem, const std::string& file);
   ~FclibCcp();
   FclibCcp(FclibCcp&&) noexcept;

@@ -95,7 +95,7 @@ TEST(fclib_ccp, global_problem_is_reduced_by_its_own_equations) {
     const FclibCcp reduced{problem, "file"};
     const FclibSolution answer = [&] {
       const Vector gamma = draw(8, 1);
-      const FclibSolution found = reduced.solution(list(gamma));
+      FclibSolution found = reduced.solution(list(gamma));
       EXPECT_EQ(reduced.impulses(found), list(gamma));
       return found;
     }();

@@ -1,6 +1,7 @@
 // What is not an FCLIB problem is refused in one sentence that names the file and the dataset; nothing crashes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -150,34 +151,89 @@ TEST_F(FclibRefused, numbers_of_a_gigabyte_each) {
             file_.string() + ": /fclib_local/vectors/mu holds numbers of no known length; the file is damaged");
 }
 
-TEST_F(FclibRefused, a_mass_matrix_that_has_no_inverse) {
-  const auto reducing = [&](double mass) -> std::string {
-    FclibProblem problem = small_global();
-    std::get<FclibGlobal>(problem.form).M.entries[1].value = mass;
-    try {
-      const FclibCcp reduced{problem, "stack.hdf5"};
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return {};
+/// What reducing `problem` says; "" when it is taken.
+std::string reducing(FclibProblem problem) {
+  try {
+    const FclibCcp reduced{std::move(problem), "stack.hdf5"};
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    return error.what();
+  }
+  return {};
+}
+
+std::string reducing_local(const std::function<void(FclibLocal&)>& spoil) {
+  FclibProblem problem = small_local();
+  spoil(std::get<FclibLocal>(problem.form));
+  return reducing(std::move(problem));
+}
+
+std::string reducing_global(const std::function<void(FclibGlobal&)>& spoil) {
+  FclibProblem problem = small_global();
+  spoil(std::get<FclibGlobal>(problem.form));
+  return reducing(std::move(problem));
+}
+
+TEST_F(FclibRefused, a_mass_matrix_that_is_not_positive_definite) {
+  const auto with_mass = [](double mass) {
+    return reducing_global([&](FclibGlobal& global) { global.M.entries[1].value = mass; });
   };
-  EXPECT_EQ(reducing(2.0), "");
-  EXPECT_EQ(reducing(0.0), "stack.hdf5: /fclib_global/M is singular; a mass matrix is positive definite");
-  EXPECT_EQ(reducing(-1.0), "stack.hdf5: /fclib_global/M is not positive definite; a mass matrix is positive definite");
+  const auto said = [](const std::string& pivot) {
+    return "stack.hdf5: /fclib_global/M is not positive definite: elimination leaves " + pivot +
+           " on the diagonal of row 1, counted from 0; a mass matrix leaves positive numbers, so mend the masses and "
+           "inertias of that degree of freedom, or take it out";
+  };
+  EXPECT_EQ(with_mass(2.0), "");
+  EXPECT_EQ(with_mass(0.0), said("0"));
+  EXPECT_EQ(with_mass(-1.0), said("-1"));
+  // A gyroscopic term of 0.1 kg beside a mass that is negative: LU would take it.
+  EXPECT_EQ(reducing_global([](FclibGlobal& global) {
+              global.M.entries[1].value = -1.0;
+              global.M.entries.push_back({0, 1, 0.1});
+              global.M.entries.push_back({1, 0, -0.1});
+            }),
+            said("-1"));
 }
 
 TEST_F(FclibRefused, a_matrix_that_is_not_symmetric) {
-  FclibProblem problem = small_local();
-  std::get<FclibLocal>(problem.form).W.entries[6].value = -0.5;  // where the mirror image has +0.5
-  try {
-    const FclibCcp reduced{problem, "stack.hdf5"};
-    FAIL() << "taken";
-  } catch (const Error& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "stack.hdf5: /fclib_local/W is not symmetric: numbers that should be the same differ by 0.5 of the largest; "
-        "a contact problem has a symmetric one");
-  }
+  const auto said = [](const std::string& name, const std::string& share) {
+    return "stack.hdf5: /" + name + " is not symmetric: numbers that should be the same differ by " + share +
+           " of the largest; a contact problem has a symmetric one";
+  };
+  // Where the mirror image has +0.5.
+  EXPECT_EQ(reducing_local([](FclibLocal& local) { local.W.entries[6].value = -0.5; }), said("fclib_local/W", "0.5"));
+  // The mirror image has nothing; the largest number is 4 kg.
+  EXPECT_EQ(reducing_global([](FclibGlobal& global) {
+              global.M.entries.push_back({0, 1, 1.0});
+            }),
+            said("fclib_global/M", "0.25"));
+}
+
+// Normal rows 2 and 1 with x between them: the eigenvalues (3 +- sqrt(1 + 4 x^2)) / 2 of them pass zero at x = sqrt 2, which
+// is singular and valid.
+TEST_F(FclibRefused, a_local_matrix_with_an_eigenvalue_below_zero) {
+  const auto coupled = [](double x) {
+    return reducing_local([&](FclibLocal& local) {
+      local.W.entries[6].value = local.W.entries[7].value = x;
+      local.V = {6, 0, {}}, local.R = {0, 0, {}}, local.s.clear();
+    });
+  };
+  EXPECT_EQ(coupled(1.4), "");
+  EXPECT_EQ(coupled(std::sqrt(2.0)), "");
+  EXPECT_EQ(
+      coupled(2.0),
+      "stack.hdf5: /fclib_local/W is not positive semidefinite: an eigenvalue of the symmetric part is -0.562 or less, "
+      "and the largest number of the diagonal 2; what masses make has none below zero, so look for rows with a wrong "
+      "sign or of another problem");
+}
+
+// W alone is fine; with V = (0.5, ..., -0.25) and R = 0 the constraint has no row of its own to stand on.
+TEST_F(FclibRefused, bilateral_constraints_that_no_masses_make) {
+  const std::string said = reducing_local([](FclibLocal& local) { local.R.entries.clear(); });
+  EXPECT_TRUE(
+      said.starts_with("stack.hdf5: /fclib_local/W, V and R make a matrix [W V; V^T R] that is not positive "
+                       "semidefinite: an eigenvalue of the symmetric part is -"))
+      << said;
 }
 
 TEST_F(FclibRefused, files_that_are_cut_short_or_no_hdf5_files) {
