@@ -77,10 +77,10 @@ void judge_unit(const CcpBlock& block, std::span<const double> g, std::span<cons
   squares.associated += squared_map(block, g, u, 1.0);
   squares.coulomb += squared_map(block, g, coulomb, 1.0);
   out.impulse_violation = worse(out.impulse_violation, violation(block, g));
-  if (trace == 0.0) return;
-  squares.worst_coulomb = worse(squares.worst_coulomb, squared_block_residual(block, g, coulomb, trace));
   out.velocity_violation = worse(out.velocity_violation, velocity_violation(block, u));
   out.complementarity_gap += complementarity_gap(block, g, u);
+  if (trace == 0.0) return;
+  squares.worst_coulomb = worse(squares.worst_coulomb, squared_block_residual(block, g, coulomb, trace));
 }
 
 }  // namespace
@@ -88,7 +88,14 @@ void judge_unit(const CcpBlock& block, std::span<const double> g, std::span<cons
 double squared_block_residual(const CcpBlock& block, std::span<const double> g, std::span<const double> u,
                               double trace) {
   const double s = block.rows / trace;
-  return squared_map(block, g, u, s) / (s * s);
+  if (s > kLeastScale && s < kMostScale) return squared_map(block, g, u, s) / (s * s);
+  // As for contacts, in velocities; bounds are impulses.
+  CcpBlock scaled = block;
+  scaled.lower *= trace / block.rows;
+  scaled.upper *= trace / block.rows;
+  BlockVector velocity{};
+  for (std::size_t k = 0; k < block.rows; ++k) velocity[k] = g[k] * (trace / block.rows);
+  return squared_map(scaled, {velocity.data(), block.rows}, u, 1.0);
 }
 
 double ccp_residual(const DelassusOperator& delassus, std::span<const double> gamma, std::span<const Twist> w,

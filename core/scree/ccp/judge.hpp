@@ -7,7 +7,8 @@
 // the complementarity problem, contact by contact and block by block in its own
 // mass (Tasora & Anitescu 2011, eq. 39, made independent of units and of mass
 // ratios). P_i projects on what the unit's impulses may be: a cone, an interval a
-// row, everything. Units with a zero N_ii, which no impulse changes, are left out.
+// row, everything. Units with a zero N_ii, which no impulse changes, are left out:
+// no solver can do anything about them.
 #pragma once
 
 #include <span>
@@ -30,7 +31,7 @@ struct CcpFigures {
   /// How far an impulse is outside its bounds at most; 0 for none [N s].
   double impulse_violation = 0.0;
   /// How far a velocity is outside K* at most [m/s]: u_n below mu ||u_t|| + ..., u < 0 of a row that can only push, any u of
-  /// a row without bounds.
+  /// a row without bounds. Units that no impulse changes count here, and in the gap below.
   double velocity_violation = 0.0;
   /// Sum of |gamma_i . u_i| over the units [J]; a bound of a box counts as the impulse's zero.
   double complementarity_gap = 0.0;

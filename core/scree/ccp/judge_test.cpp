@@ -195,6 +195,61 @@ TEST(ccp_figures, of_blocks_have_the_bits_of_one_thread_for_two) {
   EXPECT_EQ(ccp_residual(planted.problem.view(), gamma), ccp_residual(planted.problem.view(), gamma, &two));
 }
 
+// What no impulse changes has no residual, but its velocities are as wrong as others: two walls that approach each other at
+// 1 m/s while they slide at 0.5 m/s, a joint that no body gives way to, and a motor of unlimited strength against it.
+TEST(ccp_figures, count_velocities_that_no_impulse_changes) {
+  TestingProblem t = sphere_on_floor(0.3, 0.1, 0.5, {0.0, 0.0, 0.0});
+  const std::uint32_t wall = t.add_immovable();
+  t.add_contact(0, wall, {1, 0, 0}, {}, {}, 0.4, {-1.0, 0.3, 0.4});
+  const std::vector<double> none(6, 0.0);
+  EXPECT_EQ(figures_of(t, none).residual, 0.0);
+  EXPECT_NEAR(figures_of(t, none).velocity_violation, 1.0 + 0.4 * 0.5, 1e-15);
+  EXPECT_EQ(figures_of(t, none).complementarity_gap, 0.0);
+  // An impulse there, as a guess may have one, meets a velocity: |2 * -1 + 0.25 * 0.3|.
+  EXPECT_NEAR(figures_of(t, {0, 0, 0, 2, 0.25, 0}).complementarity_gap, 1.925, 1e-15);
+
+  t.add_block({.kind = CcpKind::free, .a = 0, .b = wall}, test::rows_at_a_point(1, false, {0, 0, 1}, {}, {}, 1.0),
+              {3.0});
+  EXPECT_EQ(figures_of(t, std::vector<double>(7, 0.0)).residual, 0.0);
+  EXPECT_EQ(figures_of(t, std::vector<double>(7, 0.0)).velocity_violation, 3.0);
+  const TestingProblem joint = test::with_matrix(t);
+  EXPECT_EQ(figures_of(joint, std::vector<double>(7, 0.0)).velocity_violation, 3.0);
+}
+
+// A body and its impulses in any unit of mass: the judge speaks of velocities. Squares of 1e-170 kg are zero and those of
+// 1e170 kg infinite, so that everything seemed solved, or nothing.
+TEST(ccp_residual, is_that_of_a_kilogram_whatever_the_mass) {
+  const std::vector<double> u{0.3, -0.5, 0.8, -0.4, 0.2, 0.1};
+  const auto residual = [&](double m, CcpBlock block, std::size_t rows, double impulse) {
+    block.lower *= m, block.upper *= m;
+    std::vector<double> gamma(rows);
+    for (std::size_t k = 0; k < rows; ++k) gamma[k] = m * impulse * (k == 0 ? 1.0 : 0.1 * static_cast<double>(k));
+    const TestingProblem t = one_block(m, block, {u.begin(), u.begin() + static_cast<std::ptrdiff_t>(rows)});
+    return ccp_residual(t.view(), gamma);
+  };
+  const auto sliding = [](double m, double impulse) {
+    return ccp_residual(sphere_on_floor(m, 0.1, 0.5, {0.3, 1.0, -0.4}).view(),
+                        std::vector<double>{m * impulse, -0.1 * m * impulse, 0.0});
+  };
+  const std::pair<CcpBlock, std::size_t> blocks[] = {
+      {{.kind = CcpKind::free}, 3},
+      {{.kind = CcpKind::nonnegative}, 3},
+      {{.kind = CcpKind::box, .lower = -0.25, .upper = 0.125}, 3},
+      {{.kind = CcpKind::cone, .friction = 0.5}, 2},
+      {{.kind = CcpKind::cone, .friction = 0.5}, 3},
+      {{.kind = CcpKind::cone, .friction = 0.5, .spinning = 0.2, .rolling = 0.1}, 6},
+  };
+  for (const double m : {1e-305, 1e-250, 1e-170, 1e-110, 1e-90, 1e90, 1e110, 1e170, 1e250, 1e305}) {
+    for (const double impulse : {0.0, 0.7}) {
+      EXPECT_GT(sliding(1.0, impulse), 0.1);
+      EXPECT_NEAR(sliding(m, impulse), sliding(1.0, impulse), 1e-14) << m;
+      for (const auto& [block, rows] : blocks) {
+        EXPECT_NEAR(residual(m, block, rows, impulse), residual(1.0, block, rows, impulse), 1e-14) << m << ", " << rows;
+      }
+    }
+  }
+}
+
 // What no impulse changes has no residual, and what is no number has an infinite one.
 TEST(ccp_residual, of_immovable_bodies_and_of_numbers_that_are_not_finite) {
   TestingProblem t = one_block(1.0, {.kind = CcpKind::cone, .friction = 0.5}, {-1.0, 0.0, 0.0});
