@@ -46,6 +46,7 @@ std::vector<Parameter> Apgd::parameters() {
 void Apgd::prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma) {
   delassus_.bind(problem, context.executor);
   packed_.build(delassus_, options_.scaled ? packed::Scaling::block : packed::Scaling::none);
+  confirmation_.start(delassus_, gamma, context.tolerance, context.executor);
   if (problem.contacts.size() >= kManyRecords && problem.blocks.empty()) delassus_.release_partition();
   packed_.pack(gamma, x_);
   x_old_ = x_;
@@ -95,7 +96,7 @@ bool Apgd::iterate() {
 
 // The residual of x_, which is kept in gamma when it is the best so far and not above the start.
 void Apgd::look(SolveSummary& summary, double start, std::span<double> gamma) {
-  const double now = residual();
+  const double now = confirmation_.residual(packed_, x_, residual());
   residual_per_pace_ = now / pace_;
   if (!(now < summary.residual) || objective() > start) return;
   summary.residual = now;
@@ -137,7 +138,7 @@ SolveSummary Apgd::solve(const CcpProblem& problem, const SolveContext& context,
   if (problem.empty()) return {};
   if (!project_guess(problem, gamma)) return {SolveStatus::numerical_failure, 0, kInfinity};
   prepare(problem, context, gamma);
-  const double guess_residual = residual();
+  const double guess_residual = confirmation_.residual(problem, gamma, residual());
   if (guess_residual <= context.tolerance) return {SolveStatus::converged, 0, guess_residual};
   // Any step downhill beats the guess, whose residual may be small by accident far away.
   SolveSummary summary{SolveStatus::iteration_limit, 0, kInfinity};
@@ -151,6 +152,7 @@ SolveSummary Apgd::solve(const CcpProblem& problem, const SolveContext& context,
 void Apgd::release_workspace() {
   delassus_ = {};
   packed_.release_memory();
+  confirmation_.release_memory();
   release(x_.contacts, x_.rows, x_old_.contacts, x_old_.rows, p_, p_old_);
   release(product_, product_old_, y_, product_y_);
 }

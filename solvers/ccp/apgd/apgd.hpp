@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "contact_step.hpp"
+#include "scree/ccp/packed/confirmation.hpp"
 #include "scree/ccp/packed/packed_problem.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
@@ -75,6 +76,7 @@ class Apgd final : public CcpSolver {
   ApgdOptions options_;
   DelassusOperator delassus_;
   packed::PackedProblem packed_;
+  packed::Confirmation confirmation_;
   packed::Impulses x_, x_old_;                 ///< [N s]
   std::vector<packed::Twists> p_, p_old_;      ///< sums of four bodies each [N s]
   std::vector<double> product_, product_old_;  ///< N x, N x_old of problems with a matrix [m/s]

@@ -62,6 +62,7 @@ std::vector<Parameter> Spg::parameters() {
 void Spg::prepare(const CcpProblem& problem, const SolveContext& context, std::span<const double> gamma) {
   delassus_.bind(problem, context.executor);
   packed_.build(delassus_, options_.scaling);
+  confirmation_.start(delassus_, gamma, context.tolerance, context.executor);
   packed_.pack(gamma, x_);
   x_best_ = x_;
   d_ = x_;
@@ -119,7 +120,7 @@ void Spg::keep_best(SolveSummary& summary, double residual, double change) {
 // The residual of x with its last step [m/s], from the impulses alone.
 double Spg::look(SolveSummary& summary) {
   refresh();
-  const double now = packed_.look(x_, product_).residual;
+  const double now = confirmation_.residual(packed_, x_, packed_.look(x_, product_).residual);
   keep_best(summary, now, search_.change());
   return now;
 }
@@ -163,7 +164,7 @@ SolveSummary Spg::solve(const CcpProblem& problem, const SolveContext& context, 
   if (problem.empty()) return {};
   if (!project_guess(problem, gamma)) return {SolveStatus::numerical_failure, 0, kInfinity};
   prepare(problem, context, gamma);
-  const double guess_residual = packed_.look(x_, product_).residual;
+  const double guess_residual = confirmation_.residual(problem, gamma, packed_.look(x_, product_).residual);
   if (guess_residual <= context.tolerance) return {SolveStatus::converged, 0, guess_residual};
   // Any step downhill beats the guess, whose residual may be small by accident far away.
   SolveSummary summary{SolveStatus::iteration_limit, 0, kInfinity};
@@ -174,8 +175,8 @@ SolveSummary Spg::solve(const CcpProblem& problem, const SolveContext& context, 
     // Judged from the impulses alone, as the caller would.
     x_.swap(x_best_);
     refresh();
-    summary.residual = packed_.look(x_, product_).residual;
     packed_.unpack(x_, gamma);
+    summary.residual = confirmation_.residual(problem, gamma, packed_.look(x_, product_).residual);
   }
   if (!std::isfinite(summary.residual)) summary.status = SolveStatus::numerical_failure;
   if (summary.residual <= context.tolerance) summary.status = SolveStatus::converged;
@@ -185,6 +186,7 @@ SolveSummary Spg::solve(const CcpProblem& problem, const SolveContext& context, 
 void Spg::release_workspace() {
   delassus_ = {};
   packed_.release_memory();
+  confirmation_.release_memory();
   release(x_.contacts, x_.rows, d_.contacts, d_.rows, x_best_.contacts, x_best_.rows, w_, v_, product_, product_d_);
 }
 

@@ -22,6 +22,7 @@
 
 #include "contact_direction.hpp"
 #include "line_search.hpp"
+#include "scree/ccp/packed/confirmation.hpp"
 #include "scree/ccp/packed/packed_problem.hpp"
 #include "scree/config/options.hpp"
 #include "scree/interfaces/ccp_solver.hpp"
@@ -78,6 +79,7 @@ class Spg final : public CcpSolver {
   SpgOptions options_;
   DelassusOperator delassus_;
   packed::PackedProblem packed_;
+  packed::Confirmation confirmation_;
   spg::LineSearch search_;
   packed::Impulses x_, d_, x_best_;          ///< impulses, direction [N s]
   std::vector<packed::Twists> w_, v_;        ///< of four bodies each
