@@ -100,7 +100,7 @@ ReportTable table_of(const CcpRecord& record, const std::vector<SolverTrial>& tr
   return table;
 }
 
-/// comparison.csv: one row a solve.
+/// comparison.csv: one row a solve, its figures under the names that `scree solve` gives them.
 class ComparisonLog {
  public:
   explicit ComparisonLog(const std::filesystem::path& file)
@@ -114,9 +114,12 @@ class ComparisonLog {
                 {"status", ""},
                 {"iterations", ""},
                 {"residual", "m/s"},
-                {"relative_residual", ""},
-                {"coulomb_error", ""},
+                {"relative_residual", "1"},
+                {"coulomb_error", "1"},
                 {"objective", "J"},
+                {"cone_violation", "N s"},
+                {"velocity_violation", "m/s"},
+                {"complementarity_gap", "J"},
                 {"wall_time", "s"},
                 {"time_per_iteration", "s"}}} {}
 
@@ -126,6 +129,8 @@ class ComparisonLog {
     table_.cell(trial.solver).cell(start_name(trial)).cell(to_string(trial.summary.status));
     table_.cell(static_cast<std::int64_t>(trial.summary.iterations)).cell(trial.figures.residual);
     table_.cell(trial.figures.relative_residual).cell(trial.figures.coulomb_error).cell(trial.figures.objective);
+    table_.cell(trial.figures.impulse_violation).cell(trial.figures.velocity_violation);
+    table_.cell(trial.figures.complementarity_gap);
     table_.cell(trial.wall_time).cell(seconds_per_iteration(trial));
     table_.end_row();
   }

@@ -17,6 +17,8 @@ SCREE = os.path.abspath(sys.argv[1])
 STEP = 140  # the heap lies in the funnel and still moves
 KEYS = ["solver", "status", "iterations", "residual", "relative_residual", "coulomb_error", "objective", "wall_time",
         "cone_violation", "velocity_violation", "complementarity_gap", "friction", "solves"]
+UNITS = {"residual": "m/s", "relative_residual": "1", "coulomb_error": "1", "objective": "J", "cone_violation": "N s",
+         "velocity_violation": "m/s", "complementarity_gap": "J"}
 
 
 def heap():
@@ -146,7 +148,11 @@ class CcpFiles(unittest.TestCase):
         for row in rows:  # as `scree solve` finds it
             alone = self.solve(row["solver"], *(["--warm"] if row["start"] == "warm" else []))
             self.assertEqual(int(row["iterations"]), alone["iterations"])
-            self.assertEqual(float(row["residual [m/s]"]), alone["residual"])
+            # Every figure under the same name, with its unit, and with the same bits.
+            for name, unit in UNITS.items():
+                self.assertEqual(float(row[f"{name} [{unit}]"]), alone[name])
+            self.assertGreater(float(row["wall_time [s]"]), 0)
+            self.assertAlmostEqual(float(row["time_per_iteration [s]"]) * int(row["iterations"]), float(row["wall_time [s]"]))
         for start in ("cold", "warm"):
             for axis in ("iterations", "time"):
                 for ending in ("svg", "png"):
