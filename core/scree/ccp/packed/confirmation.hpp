@@ -3,7 +3,7 @@
 // The passes add up the judge's terms in another order, and so see rounding of another sign. Of impulses p on a light body it
 // makes velocities of about eps ||p|| / m, where ||p|| may be what a heavy body needs: 1e-16 times the ratio of their masses
 // times the speeds. Where that comes near the tolerance, or the numbers leave the range in which the passes' squares have
-// room, the word of a pass is not enough. Elsewhere asking the judge would cost two iterations for nothing.
+// room, the word of a pass is not enough. Elsewhere asking the judge would take its time for nothing.
 #pragma once
 
 #include <span>
