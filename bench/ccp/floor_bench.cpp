@@ -1,8 +1,8 @@
 // What memory allows, and what the solvers make of it.
 //
-//     floor_bench floor [SOLVER [OPTIONS]]   one thread: an iteration against its floor
-//     floor_bench threads    two threads against the best serial variant, beside the gain of a plain copy
-//     floor_bench memory [CONTACTS]    bytes a contact of each solver, peak resident set of all that solves such a problem
+//     ccp_floor_bench floor [SOLVER [OPTIONS]]   one thread: an iteration against its floor
+//     ccp_floor_bench threads    two threads against the best serial variant, beside the gain of a plain copy
+//     ccp_floor_bench memory [CONTACTS]    bytes a contact of each solver, peak resident set of all that solves such a problem
 //
 // The floor of an iteration: each contact's record (120 bytes at most) once, its impulse read and written, the velocities of the
 // bodies once, over the bandwidth of copying. SCREE_BED=FILE for a bed of one's own; without it, a synthetic one of 64 000
@@ -202,7 +202,7 @@ int main(int argc, char** argv) {
   } else if (what == "memory") {
     scree::bench::print_memory(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 2'000'000);
   } else {
-    fmt::print(stderr, "floor_bench: '{}' is not one of floor, threads, memory\n", what);
+    fmt::print(stderr, "ccp_floor_bench: '{}' is not one of floor, threads, memory\n", what);
     return 2;
   }
   return 0;
