@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "log_watch.hpp"
 #include "say.hpp"
 #include "scene_plugins.hpp"
 #include "scree/config/scene_document.hpp"
@@ -24,13 +25,18 @@ void check(const CheckOptions& options) {
   const SceneDocument scene = SceneDocument::load(scene_file(options.scene), options.overrides);
   const PluginHost host = find_scene_plugins(scene, options.plugin_dirs);
   Simulation simulation{scene, host, {}};
-  for (const std::string& sentence : simulation.warnings()) warn(sentence);
+  LogWatch log_watch;
+  const auto tell_warnings = [&] {
+    for (const std::string& sentence : log_watch.news(simulation.log())) warn(sentence);
+  };
+  tell_warnings();
   if (options.resolved) {
     say("{}\n", simulation.resolved_scene());
     return;
   }
   const std::size_t at_the_start = simulation.bodies().size();
   simulation.try_first_step();
+  tell_warnings();
   say("{}: can run, {:.6g} s in steps of {:.6g} s; {} at the start\n", options.scene.string(), simulation.end_time(),
       simulation.time_step(), counted(at_the_start, "body", "bodies"));
   for (const PartInfo& part : simulation.parts()) say("  {}\n", part.label_with_library());

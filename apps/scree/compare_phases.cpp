@@ -63,11 +63,11 @@ std::string label(const PhaseTrial& trial) { return trial.names.broad + " x " + 
 
 ReportTable table_of(double time, std::size_t bodies, const PhaseNames& reference,
                      const std::vector<PhaseTrial>& trials) {
-  ReportTable table{
-      fmt::format("{:.6g} s: {} bodies; differences from {} x {}", time, bodies, reference.broad, reference.narrow()),
-      {"broad_phase", "narrow_phase", "candidates", "pairs", "contacts", "first [ms]", "frame [ms]", "ns/pair",
-       "missed", "extra", "gap [r]", "normal [deg]", "fallbacks"},
-      {}};
+  ReportTable table{fmt::format("{:.6g} s: {}; differences from {} x {}", time, counted(bodies, "body", "bodies"),
+                                reference.broad, reference.narrow()),
+                    {"broad_phase", "narrow_phase", "candidates", "pairs", "contacts", "first [ms]", "frame [ms]",
+                     "ns/pair", "missed", "extra", "gap [r]", "normal [deg]", "fallbacks"},
+                    {}};
   for (const PhaseTrial& t : trials) {
     const double pairs = static_cast<double>(std::max<std::size_t>(1, t.counts.pairs));
     table.rows.push_back({t.names.broad, t.names.narrow(), std::to_string(t.counts.candidates),

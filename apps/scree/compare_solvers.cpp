@@ -14,6 +14,7 @@
 #include "scene_plugins.hpp"
 #include "scree/ccp/count_contacts.hpp"
 #include "scree/config/scene_document.hpp"
+#include "scree/config/suggest.hpp"
 #include "scree/parallel/executor.hpp"
 #include "scree/results/csv.hpp"
 #include "scree/results/result_folder.hpp"
@@ -27,10 +28,23 @@ namespace {
 constexpr double kShortSolve = 0.2;
 constexpr int kRepeats = 4;
 
+/// Refuses a --solver-set of a solver that does not take part.
+void check_solver_settings(const CompareOptions& options) {
+  for (const std::string& assignment : options.solver_settings) {
+    const std::string solver = assignment.substr(0, assignment.find_first_of(".="));
+    if (std::ranges::find(options.values, solver) != options.values.end()) continue;
+    throw Error{ErrorKind::usage,
+                {"--solver-set " + assignment, 0, 0},
+                "'" + solver + "' is not one of the compared solvers, " + list_of(options.values) +
+                    "; write for example " + options.values.front() + ".KEY=VALUE"};
+  }
+}
+
 std::vector<Part<CcpSolver>> make_solvers(const CompareOptions& options, const PluginHost& host) {
+  check_solver_settings(options);
   std::string tables;
   for (const std::string& name : options.values) tables += "['" + name + "']\n";
-  const SceneDocument settings = SceneDocument::parse(tables, "--vary", options.solver_settings);
+  const SceneDocument settings = SceneDocument::parse(tables, "--vary", options.solver_settings, "--solver-set");
   std::vector<Part<CcpSolver>> solvers;
   for (const std::string& name : options.values) {
     solvers.push_back(make_solver(host, name, settings.root().table(name)));

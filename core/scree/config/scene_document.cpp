@@ -128,18 +128,18 @@ SceneDocument SceneDocument::load(const fs::path& file, std::span<const std::str
   contents->file = file;
   contents->folder = fs::absolute(file).lexically_normal().parent_path();
   contents->root = Loader{contents->store}.load(file, {});
-  for (const std::string& assignment : overrides) apply_override(*contents->root, assignment, contents->store);
+  for (const std::string& assignment : overrides) apply_override(*contents->root, "--set", assignment, contents->store);
   return SceneDocument{std::move(contents)};
 }
 
 SceneDocument SceneDocument::parse(std::string_view toml, const std::string& name,
-                                   std::span<const std::string> overrides) {
+                                   std::span<const std::string> overrides, const std::string& option) {
   auto contents = std::make_unique<Contents>();
   contents->file = name;
   contents->folder = fs::current_path();
   const SceneOrigin& origin = *contents->store.add(name, contents->folder);
   contents->root = Loader{contents->store}.with_includes(toml, origin, {});
-  for (const std::string& assignment : overrides) apply_override(*contents->root, assignment, contents->store);
+  for (const std::string& assignment : overrides) apply_override(*contents->root, option, assignment, contents->store);
   return SceneDocument{std::move(contents)};
 }
 

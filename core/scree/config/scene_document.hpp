@@ -50,9 +50,9 @@ class SceneDocument {
   /// is a TOML value if it can be read as one, else a string; paths in it start from the working directory.
   /// @throws Error (io) for a missing file, (usage) for a syntax error, a cycle, an override that names no table.
   static SceneDocument load(const std::filesystem::path& file, std::span<const std::string> overrides = {});
-  /// From text, for tests; `name` stands for the file in messages.
+  /// From text, for tests; `name` stands for the file in messages, `option` for what gave the overrides.
   static SceneDocument parse(std::string_view toml, const std::string& name = "scene.toml",
-                             std::span<const std::string> overrides = {});
+                             std::span<const std::string> overrides = {}, const std::string& option = "--set");
 
   SceneDocument(SceneDocument&&) noexcept;
   SceneDocument& operator=(SceneDocument&&) noexcept;

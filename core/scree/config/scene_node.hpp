@@ -16,7 +16,7 @@ namespace scree {
 
 struct SceneStore;
 
-/// Where values come from: a file, or one --set of the command line.
+/// Where values come from: a file, or one option of the command line.
 struct SceneOrigin {
   std::string name;             ///< as messages show it
   std::filesystem::path base;   ///< absolute folder that relative paths start from
@@ -75,7 +75,8 @@ using SceneNode = SceneTable::Node;
 /// The value of `text` if it is one TOML value, else `text` as a string.
 [[nodiscard]] std::shared_ptr<SceneNode> read_toml_value(std::string_view text, const SceneOrigin& origin);
 
-/// Applies `assignment`, "key.sub=value", to the tree. @throws Error (usage) when its path names nothing.
-void apply_override(SceneNode& root, const std::string& assignment, SceneStore& store);
+/// Applies `assignment`, "key.sub=value", to the tree. @throws Error (usage) that names `option`, which gave it, when its path
+/// names nothing.
+void apply_override(SceneNode& root, const std::string& option, const std::string& assignment, SceneStore& store);
 
 }  // namespace scree

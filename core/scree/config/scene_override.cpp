@@ -40,8 +40,8 @@ bool is_called(const SceneNode& table, const std::string& word, const char* key)
 
 class Walk {
  public:
-  Walk(const std::string& assignment, SceneStore& store)
-      : origin_{*store.add("--set " + assignment, std::filesystem::current_path())} {}
+  Walk(const std::string& option, const std::string& assignment, SceneStore& store)
+      : origin_{*store.add(option + " " + assignment, std::filesystem::current_path())} {}
 
   [[nodiscard]] const SceneOrigin& origin() const { return origin_; }
 
@@ -119,8 +119,8 @@ void place_on_command_line(SceneNode& node) {
 
 }  // namespace
 
-void apply_override(SceneNode& root, const std::string& assignment, SceneStore& store) {
-  const Walk walk{assignment, store};
+void apply_override(SceneNode& root, const std::string& option, const std::string& assignment, SceneStore& store) {
+  const Walk walk{option, assignment, store};
   const std::size_t equals = assignment.find('=');
   const std::vector<std::string> path = path_of(std::string_view{assignment}.substr(0, equals));
   if (equals == std::string::npos || std::ranges::find(path, "") != path.end())

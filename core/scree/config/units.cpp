@@ -192,6 +192,12 @@ double parse_quantity(std::string_view text, std::string_view unit) {
   if (failure != std::errc{}) refuse(whole, "is not " + in_unit(unit), unit);
   if (!std::isfinite(value)) refuse(whole, "is not a finite number", unit);
   const std::string_view rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
+  if (rest.size() > 1 && rest[0] == ',' && is_digit(rest[1])) {
+    std::string point{whole};
+    point[point.find(',')] = '.';
+    throw Error{ErrorKind::usage, "\"" + std::string{whole.substr(0, 80)} + "\" has a decimal comma; write \"" +
+                                      point.substr(0, 80) + "\""};
+  }
   if (rest.empty() && unit != "1" && unit != kAnyUnit)
     refuse(whole, "has no unit where " + in_unit(unit) + " is needed", unit);
   if (rest.empty()) return value;

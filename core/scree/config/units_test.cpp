@@ -101,6 +101,7 @@ TEST(units, refusals_name_both_units_and_a_way_out) {
             R"("1e999 m" is too large or too small for a number; write for example "3 mm")");
   EXPECT_EQ(sentence_of("1e308 km", "m"), R"("1e308 km" is not a finite number in m; write for example "3 mm")");
   EXPECT_EQ(sentence_of("", "m"), R"("" is not a quantity in m; write for example "3 mm")");
+  EXPECT_EQ(sentence_of("-0,1 s", "s"), R"("-0,1 s" has a decimal comma; write "-0.1 s")");
   EXPECT_EQ(sentence_of("3 10 m", "m"), R"("3 10 m" has the unknown unit '10 m'; write for example "3 mm")");
 }
 

@@ -57,6 +57,14 @@ const Parameter& shorthand_member(const Parameter& parameter, const Variant& alt
   return *found;
 }
 
+[[noreturn]] void refuse_type(const SceneNode& word, const Parameter& parameter, const std::string& subject) {
+  const std::vector<std::string> types = types_of(parameter);
+  const std::string near = nearest_word(word.text, types);
+  throw Error{ErrorKind::usage, word.where(),
+              subject + " has the unknown type " + quote(word.text) +
+                  (near.empty() ? "; valid are " : "; did you mean '" + near + "'? Valid are ") + list_of(types)};
+}
+
 // A plain value in place of a table: the name of a type, or the value of the shorthand's member.
 Options read_shorthand(const SceneNode& node, const Parameter& parameter, const std::string& subject) {
   if (node.kind == SceneKind::text) {
@@ -64,6 +72,7 @@ Options read_shorthand(const SceneNode& node, const Parameter& parameter, const 
       return alternative_with(*named, node, subject, {}, {});
   }
   const Variant* alternative = find_alternative(parameter, parameter.shorthand_type);
+  if (alternative == nullptr && node.kind == SceneKind::text) refuse_type(node, parameter, subject);
   if (alternative == nullptr) refuse_kind(node, parameter, subject);
   const Parameter& member = shorthand_member(parameter, *alternative);
   Options::Entry given = entry_at(node);
@@ -83,12 +92,7 @@ Options read_variant(const SceneNode& node, const Parameter& parameter, const st
                 "'type' of " + subject + " must be a string, one of " + list_of(types) + ", but is " +
                     std::string{kind_name(type->value->kind)}};
   const Variant* alternative = find_alternative(parameter, type->value->text);
-  if (alternative == nullptr) {
-    const std::string near = nearest_word(type->value->text, types);
-    throw Error{ErrorKind::usage, type->value->where(),
-                subject + " has the unknown type " + quote(type->value->text) +
-                    (near.empty() ? "; valid are " : "; did you mean '" + near + "'? Valid are ") + list_of(types)};
-  }
+  if (alternative == nullptr) refuse_type(*type->value, parameter, subject);
   Options result = read_table(node, alternative->members, subject, true);
   result.set_type(alternative->type);
   return result;

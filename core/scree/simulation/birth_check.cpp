@@ -35,9 +35,10 @@ void BirthCheck::check(const BodyView& bodies, std::span<const Contact> contacts
     char depth[80];
     std::snprintf(depth, sizeof depth, "by %.3g m, %.0f %% of the smaller radius", -contact.gap,
                   -100.0 * contact.gap / radius);
-    throw Error{ErrorKind::usage, source.label() + " adds " + name_of(bodies, contact.b, known) + ", which overlaps " +
-                                      name_of(bodies, contact.a, known) + " " + depth +
-                                      "; move the source or that body apart, or set simulation.allow_overlap = true"};
+    throw Error{ErrorKind::usage, source.where,
+                source.label() + " adds " + name_of(bodies, contact.b, known) + ", which overlaps " +
+                    name_of(bodies, contact.a, known) + " " + depth +
+                    "; move the source or that body apart, or set simulation.allow_overlap = true"};
   }
   births_.clear();
 }

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "scan_family.hpp"
+#include "scree/config/parameter_text.hpp"
+#include "scree/config/suggest.hpp"
 #include "scree/interfaces/scene_services.hpp"
 #include "scree/model/material.hpp"
 
@@ -91,8 +93,13 @@ Family::Family(const Options& options, SceneServices& services)
     : name_{options.text("name")},
       share_{options.number("share")},
       random_alignment_{options.text("alignment") == "random"} {
-  const std::int64_t material = services.materials().find(options.text("material"));
-  if (material < 0) static_cast<void>(services.material(options.text("material")));  // throws the sentence
+  const std::string& wanted = options.text("material");
+  const std::int64_t material = services.materials().find(wanted);
+  if (material < 0) {
+    const std::vector<std::string> known = services.materials().names();
+    throw options.error("material", "of family '" + name_ + "' is '" + wanted + "', but the scene has " +
+                                        list_of(known) + suggestion(wanted, known));
+  }
   material_ = static_cast<std::uint32_t>(material);
   if (options.table("shape").type() == "scan") {
     make_scanned(options, services);
@@ -146,9 +153,18 @@ void Family::read_laws(const Options& options, SceneServices& services) {
     const std::string key = law == &size_ ? "size" : "density";
     if (!options.has(key))
       throw options.error("family '" + name_ + "': the density of its material must be above zero");
-    const bool fixed = options.table(key).type() == "constant";
-    throw options.error(key, "of family '" + name_ + "' must " +
-                                 (fixed ? "be above zero" : "never be below zero; give the law a 'min'"));
+    const std::string least = quantity_text(law->minimum(), law == &size_ ? "m" : "kg/m3");
+    if (options.table(key).type() == "constant") {
+      throw options.error(key, "of family '" + name_ + "' is " + least + ", but must be above zero");
+    }
+    if (law->maximum() <= 0.0) {
+      throw options.error(key, "of family '" + name_ + "' is " +
+                                   quantity_text(law->maximum(), law == &size_ ? "m" : "kg/m3") +
+                                   " at most, but must be above zero");
+    }
+    throw options.error(key, "of family '" + name_ + "' must never be below zero, but this law " +
+                                 (std::isfinite(law->minimum()) ? "reaches " + least : std::string{"has no end"}) +
+                                 "; give it a 'min' of zero or more");
   }
 }
 

@@ -54,6 +54,19 @@ std::optional<UnreadValue> unread_cohesion(Cohesion cohesion, const ContactMater
   return {};
 }
 
+std::optional<std::string> idle_cohesion(Cohesion cohesion, const Materials& materials, const SourceLocation& where) {
+  if (cohesion == Cohesion::none) return {};
+  for (std::uint32_t a = 0; a < materials.size(); ++a) {
+    for (std::uint32_t b = a; b < materials.size(); ++b) {
+      if (cohesion_of_pair(cohesion, materials.pair(a, b)) > 0.0) return {};
+    }
+  }
+  const char* word = cohesion == Cohesion::sced ? "sced" : cohesion == Cohesion::dmt ? "dmt" : "jkr";
+  const char* key = cohesion == Cohesion::sced ? "cohesion_energy_density" : "surface_energy";
+  return "warning: " + to_prefix(where) + "cohesion = \"" + word + "\" has no effect: " + key +
+         " of all pairs of materials is 0; set it in [material.NAME] or [[material_pair]]";
+}
+
 void add_cohesion(Cohesion cohesion, const PairColumn& column, const ContactBatch& __restrict batch,
                   ContactLanes& __restrict lanes) {
   if (cohesion != Cohesion::sced && cohesion != Cohesion::dmt) return;

@@ -34,6 +34,11 @@ enum class Cohesion { none, sced, dmt, jkr };
 [[nodiscard]] std::optional<UnreadValue> unread_cohesion(Cohesion cohesion, const ContactMaterial& pair,
                                                          bool knows_modulus);
 
+/// A warning, for the log, when bodies are to attract each other and no pair of `materials` says how strongly; else nothing.
+/// `where` is the place of the setting.
+[[nodiscard]] std::optional<std::string> idle_cohesion(Cohesion cohesion, const Materials& materials,
+                                                       const SourceLocation& where);
+
 /// Takes the attraction of sced or dmt from lanes.normal, where lanes.stiffness says that surfaces act on each other.
 void add_cohesion(Cohesion cohesion, const PairColumn& column, const ContactBatch& batch, ContactLanes& lanes);
 

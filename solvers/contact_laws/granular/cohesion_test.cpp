@@ -40,6 +40,24 @@ TEST(cohesion, of_none_leaves_both_unread_and_says_what_reads_them) {
   EXPECT_FALSE(unread_cohesion(Cohesion::none, {.friction = 0.5}, true));
 }
 
+TEST(cohesion, warns_when_nothing_says_how_strong_it_is) {
+  const auto warns = [](Cohesion cohesion, const ContactMaterial& contact) {
+    Materials materials;
+    Material material;
+    material.name = "a";
+    material.contact = contact;
+    materials.add(material);
+    return idle_cohesion(cohesion, materials, {"scene.toml", 3, 1}).value_or("");
+  };
+  for (const Cohesion model : {Cohesion::dmt, Cohesion::jkr}) {
+    EXPECT_EQ(warns(model, kSurface), "");
+    EXPECT_NE(warns(model, kDensity).find("surface_energy of all pairs of materials is 0"), std::string::npos);
+  }
+  EXPECT_EQ(warns(Cohesion::sced, kDensity), "");
+  EXPECT_TRUE(warns(Cohesion::sced, {}).starts_with("warning: scene.toml:3:1: cohesion = \"sced\" has no effect"));
+  EXPECT_EQ(warns(Cohesion::none, {}), "");
+}
+
 // A law without a modulus has no jkr, and does not advise it.
 TEST(cohesion, advises_what_the_law_has) {
   EXPECT_EQ(unread_cohesion(Cohesion::sced, kSurface, false)->sentence.find("jkr"), std::string::npos);

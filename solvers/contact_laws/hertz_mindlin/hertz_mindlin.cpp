@@ -30,7 +30,8 @@ HertzMindlin::HertzMindlin(const Options& options)
       fraction_{options.number("rayleigh_fraction")},
       tangential_damping_{options.number("tangential_damping")},
       rolling_{options},
-      cohesion_{granular::cohesion_of(options)} {}
+      cohesion_{granular::cohesion_of(options)},
+      cohesion_place_{options.location("cohesion")} {}
 
 std::vector<Parameter> HertzMindlin::parameters() {
   std::vector<Parameter> list = ElasticPairs::parameters();
@@ -50,6 +51,7 @@ void HertzMindlin::setup(SceneServices& services) {
   const Materials& materials = services.materials();
   pairs_.setup(services, cohesion_);
   rolling_.setup(materials);
+  if (const auto warning = granular::idle_cohesion(cohesion_, materials, cohesion_place_)) services.log(*warning);
   for (std::uint32_t a = 0; a < materials.size(); ++a)
     for (std::uint32_t b = a; b < materials.size(); ++b) services.log(pairs_.describe(materials, a, b));
 }

@@ -44,6 +44,7 @@ class HertzMindlin final : public ContactLaw, public ContactReader {
   double tangential_damping_ = 0.0;  ///< factor on Ct [1]
   granular::RollingResistance rolling_;
   granular::Cohesion cohesion_ = granular::Cohesion::none;
+  SourceLocation cohesion_place_;  // in the scene
 };
 
 }  // namespace scree

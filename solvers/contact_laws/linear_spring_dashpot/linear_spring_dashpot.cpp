@@ -19,7 +19,8 @@ LinearSpringDashpot::LinearSpringDashpot(const Options& options)
       stiffness_ratio_{options.number("tangential_stiffness_ratio")},
       damping_ratio_{options.number("tangential_damping_ratio")},
       rolling_{options},
-      cohesion_{granular::cohesion_of(options)} {}
+      cohesion_{granular::cohesion_of(options)},
+      cohesion_place_{options.location("cohesion")} {}
 
 std::vector<Parameter> LinearSpringDashpot::parameters() {
   std::vector<Parameter> list = LinearPairs::parameters();
@@ -42,6 +43,7 @@ void LinearSpringDashpot::setup(SceneServices& services) {
   const Materials& materials = services.materials();
   pairs_.setup(materials);
   rolling_.setup(materials);
+  if (const auto warning = granular::idle_cohesion(cohesion_, materials, cohesion_place_)) services.log(*warning);
   cohesion_column_.clear();
   for (std::uint32_t a = 0; a < materials.size(); ++a) {
     for (std::uint32_t b = 0; b < materials.size(); ++b) {

@@ -37,6 +37,7 @@ class LinearSpringDashpot final : public ContactLaw, public ContactReader {
   double stiffness_ratio_ = 0.0, damping_ratio_ = 0.0;  ///< along the surface over along the normal [1]
   granular::RollingResistance rolling_;
   granular::Cohesion cohesion_ = granular::Cohesion::none;
+  SourceLocation cohesion_place_;  // in the scene
   granular::PairColumn cohesion_column_;
 };
 

@@ -80,6 +80,7 @@ std::string PluginHost::unknown(std::string_view kind, std::string_view name) co
     if (!std::filesystem::exists(searched_[i])) text += " (does not exist)";
   }
   if (searched_.empty()) text += "no folder";
+  text += "; name other places in the scene's `plugins`, with --plugin-dir or in SCREE_PLUGIN_PATH";
   if (refused_.size() == 1) text += "; left out " + refused_.front();
   if (refused_.size() > 1) {
     text += "; left out " + std::to_string(refused_.size()) + " files, the first: " + refused_.front();

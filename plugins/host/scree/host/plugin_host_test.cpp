@@ -165,7 +165,8 @@ TEST(plugin_host, an_unknown_name_lists_what_exists_a_suggestion_and_the_folders
               (void)host.entry("force_field", "pusch", {"scene.toml", 7, 8});
             }),
             "scene.toml:7:8: there is no force_field 'pusch' (did you mean 'push'?); valid: 'push'; searched in " +
-                folder + ", /nowhere/at/all (does not exist), " + broken + "; left out " +
+                folder + ", /nowhere/at/all (does not exist), " + broken +
+                "; name other places in the scene's `plugins`, with --plugin-dir or in SCREE_PLUGIN_PATH; left out " +
                 fixture("no_symbol").string() + ": " + refusal_of(fixture("no_symbol")));
 }
 
