@@ -5,8 +5,10 @@
 
 #include "scree/ccp/ccp_file.hpp"
 #include "scree/config/resolved.hpp"
+#include "scree/config/suggest.hpp"
 #include "scree/results/run_record.hpp"
 #include "scree/simulation/kept_options.hpp"
+#include "scree/simulation/scene_difference.hpp"
 #include "scree/simulation/scene_machine.hpp"
 #include "scree/simulation/simulation_state.hpp"
 #include "scree/state/hdf5_checkpoint.hpp"
@@ -156,6 +158,17 @@ std::vector<RemovedBody> load_removed(const StateReader& in) {
   return removed;
 }
 
+/// The settings that differ from those in the run.json beside a checkpoint, as a part of a sentence; empty when they are not known.
+std::string what_differs(const std::filesystem::path& checkpoint, const std::string& hash, const std::string& scene) {
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> keys = differing_settings(scene_beside(checkpoint, hash), scene);
+  if (keys.empty()) return {};
+  const std::size_t more = keys.size() - std::min(keys.size(), kNamed);
+  keys.resize(keys.size() - more);
+  return ": " + list_of(keys) + (more == 0 ? "" : " and " + std::to_string(more) + " more") +
+         (keys.size() == 1 ? " differs" : " differ");
+}
+
 std::string group_name(const PartInfo& info) { return info.kind + ":" + info.name; }
 
 }  // namespace
@@ -259,8 +272,9 @@ void Simulation::resume(const std::filesystem::path& file) {
   const CheckpointReader reader{file};
   if (reader.header().scene_hash != scene_hash()) {
     throw Error{ErrorKind::usage, file.string() + " was written by another scene (its hash is " +
-                                      reader.header().scene_hash + ", that of this one " + scene_hash() +
-                                      "); only end_time, output and observers may change before a run is continued"};
+                                      reader.header().scene_hash + ", that of this one " + scene_hash() + ")" +
+                                      what_differs(file, reader.header().scene_hash, resolved_scene()) +
+                                      "; only end_time, output and observers may change before a run is continued"};
   }
   state_->restore_from(reader.root());
 }

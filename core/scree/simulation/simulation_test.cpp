@@ -6,6 +6,7 @@
 
 #include "scree/config/scene_document.hpp"
 #include "scree/model/body_store.hpp"
+#include "scree/results/run_record.hpp"
 #include "scree/simulation/testing_catalog.hpp"
 
 namespace scree {
@@ -144,6 +145,38 @@ TEST(Simulation, refuses_the_checkpoint_of_another_scene) {
   Simulation simulation{other, catalog, {}};
   EXPECT_THROW(simulation.resume(file), Error);
   std::filesystem::remove(file);
+}
+
+// The record of the run that wrote it says what differs; without it, or beside another run's, nothing is guessed.
+TEST(Simulation, names_the_settings_in_which_a_checkpoint_differs) {
+  const Catalog catalog;
+  const std::string changed = "\n[contacts]\nunlisted_pair = 'mean'\n[output]\nsteps_every = 7\n";
+  const SceneDocument one = SceneDocument::parse(scene(kFedScene));
+  const SceneDocument other = SceneDocument::parse(scene(std::string{kFedScene} + changed));
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "scree_named_difference_test";
+  std::filesystem::create_directories(folder);
+  Simulation first{one, catalog, {}};
+  first.save(folder / "checkpoint.h5");
+  Simulation second{other, catalog, {}};
+  const auto refusal_to_resume = [&]() -> std::string {
+    try {
+      second.resume(folder / "checkpoint.h5");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(refusal_to_resume().find(second.scene_hash() + "); only end_time"), std::string::npos);
+  RunRecord record;
+  record.scene_hash = first.scene_hash();
+  record.resolved_scene = first.resolved_scene();
+  write_run_record(record, folder / "run.json");
+  EXPECT_NE(refusal_to_resume().find("): 'contacts.unlisted_pair' differs; only end_time"), std::string::npos)
+      << refusal_to_resume();
+  record.scene_hash = "0";
+  write_run_record(record, folder / "run.json");
+  EXPECT_NE(refusal_to_resume().find(second.scene_hash() + "); only end_time"), std::string::npos);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Simulation, a_body_that_flies_off_is_told_in_a_line_of_text) {
