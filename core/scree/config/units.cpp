@@ -153,6 +153,17 @@ std::string_view trimmed(std::string_view text) {
                                     quantity_example(unit) + "\""};
 }
 
+// "0,1 s" can only mean one number, "1,234.5 m" and "1,2,3 m" not.
+[[noreturn]] void refuse_comma(std::string_view text, std::string_view unit) {
+  std::string point{text};
+  point[point.find(',')] = '.';
+  const std::size_t end = point.find_first_not_of("+-.0123456789");
+  const bool plain = std::ranges::count(point.substr(0, end), '.') == 1 && (end == point.npos || point[end] != ',');
+  if (!plain) refuse(text, "has a comma, which numbers have not; a point stands before decimals", unit);
+  throw Error{ErrorKind::usage, "\"" + std::string{text.substr(0, 80)} + "\" has a decimal comma; write \"" +
+                                    point.substr(0, 80) + "\""};
+}
+
 // "a length in m" has no name here: the SI unit names the dimension.
 std::string in_unit(std::string_view unit) {
   if (unit == kAnyUnit) return "a quantity";
@@ -192,12 +203,7 @@ double parse_quantity(std::string_view text, std::string_view unit) {
   if (failure != std::errc{}) refuse(whole, "is not " + in_unit(unit), unit);
   if (!std::isfinite(value)) refuse(whole, "is not a finite number", unit);
   const std::string_view rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
-  if (rest.size() > 1 && rest[0] == ',' && is_digit(rest[1])) {
-    std::string point{whole};
-    point[point.find(',')] = '.';
-    throw Error{ErrorKind::usage, "\"" + std::string{whole.substr(0, 80)} + "\" has a decimal comma; write \"" +
-                                      point.substr(0, 80) + "\""};
-  }
+  if (rest.size() > 1 && rest[0] == ',' && is_digit(rest[1])) refuse_comma(whole, unit);
   if (rest.empty() && unit != "1" && unit != kAnyUnit)
     refuse(whole, "has no unit where " + in_unit(unit) + " is needed", unit);
   if (rest.empty()) return value;

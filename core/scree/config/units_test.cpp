@@ -102,6 +102,12 @@ TEST(units, refusals_name_both_units_and_a_way_out) {
   EXPECT_EQ(sentence_of("1e308 km", "m"), R"("1e308 km" is not a finite number in m; write for example "3 mm")");
   EXPECT_EQ(sentence_of("", "m"), R"("" is not a quantity in m; write for example "3 mm")");
   EXPECT_EQ(sentence_of("-0,1 s", "s"), R"("-0,1 s" has a decimal comma; write "-0.1 s")");
+  // What can be read in two ways gets no advice that would be refused again, or be wrong.
+  for (const std::string text : {"1,234.5 m", "1,2,3 m", "1.5,2 m"}) {
+    EXPECT_EQ(sentence_of(text, "m"), "\"" + text + "\" has a comma, which numbers have not; a point stands before " +
+                                          "decimals; write for example \"3 mm\"");
+  }
+  EXPECT_EQ(sentence_of("1,5e-3 m2", "m2"), R"("1,5e-3 m2" has a decimal comma; write "1.5e-3 m2")");
   EXPECT_EQ(sentence_of("3 10 m", "m"), R"("3 10 m" has the unknown unit '10 m'; write for example "3 mm")");
 }
 

@@ -161,12 +161,13 @@ std::vector<RemovedBody> load_removed(const StateReader& in) {
 /// The settings that differ from those in the run.json beside a checkpoint, as a part of a sentence; empty when they are not known.
 std::string what_differs(const std::filesystem::path& checkpoint, const std::string& hash, const std::string& scene) {
   constexpr std::size_t kNamed = 5;
-  std::vector<std::string> keys = differing_settings(scene_beside(checkpoint, hash), scene);
+  const std::vector<std::string> keys = differing_settings(scene_beside(checkpoint, hash), scene);
   if (keys.empty()) return {};
-  const std::size_t more = keys.size() - std::min(keys.size(), kNamed);
-  keys.resize(keys.size() - more);
-  return ": " + list_of(keys) + (more == 0 ? "" : " and " + std::to_string(more) + " more") +
-         (keys.size() == 1 ? " differs" : " differ");
+  if (keys.size() == 1) return ": '" + keys.front() + "' differs";
+  if (keys.size() <= kNamed) return ": " + list_of(keys) + " differ";
+  std::string named;
+  for (std::size_t i = 0; i < kNamed; ++i) named += (i > 0 ? ", '" : "'") + keys[i] + "'";
+  return ": " + named + " and " + std::to_string(keys.size() - kNamed) + " more differ";
 }
 
 std::string group_name(const PartInfo& info) { return info.kind + ":" + info.name; }
