@@ -1,6 +1,8 @@
 // Sylvester's law of inertia decides: A + shift is positive definite iff all pivots of its L D L^T are above zero. A pivot d_k
 // below zero comes with a vector that shows it, x = L^-T e_k, since x^T A x = d_k; Lanczos starts from there, so that the
-// eigenvalue that is told is at most x^T A x / x^T x.
+// eigenvalue that is told is at most x^T A x / x^T x. A factor that fills up anyway is a matter for dense Cholesky, which does ten
+// times as many products a second.
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
@@ -19,23 +21,31 @@ using Vector = Eigen::VectorXd;
 using Eigen::Index;
 
 constexpr Index kMostRows = 100'000;
-constexpr std::size_t kMostFill = 30'000'000;  ///< numbers of a factor
+constexpr double kMostFill = 30e6;     ///< numbers of a factor
+constexpr double kMostProducts = 5e9;  ///< of its computation, some ten seconds
 constexpr Index kLanczosSteps = 60;
 /// What is left of a diagonal by rounding alone [1].
 constexpr double kPivotRounding = 1e-14;
 
 double largest_number(const SparseMatrix& a) { return a.nonZeros() > 0 ? a.coeffs().abs().maxCoeff() : 0.0; }
 
-/// Whether the factor of `a`, ordered as SimplicialLDLT does, has more than kMostFill numbers: each row of L holds what the
-/// elimination tree has between the entries of A in that row and its diagonal (Liu 1990).
-bool fills_too_much(const SparseMatrix& a) {
+/// What L D L^T takes.
+struct Effort {
+  double numbers = 0.0, products = 0.0;
+};
+
+/// The effort for `a`, ordered as SimplicialLDLT does; no more is counted when it has too many numbers. Each row of L holds what
+/// the elimination tree has between the entries of A in that row and its diagonal (Liu 1990), and a column of n numbers costs
+/// n^2 / 2 products.
+Effort effort_of(const SparseMatrix& a) {
   Eigen::AMDOrdering<int>::PermutationType inverse;
   Eigen::AMDOrdering<int>{}(a.selfadjointView<Eigen::Lower>(), inverse);
   const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order = inverse.inverse();
   SparseMatrix ordered;
   ordered = a.twistedBy(order);
   std::vector<Index> parent(static_cast<std::size_t>(a.rows()), -1), seen(parent.size(), -1);
-  std::size_t fill = 0;
+  std::vector<double> column(parent.size(), 0.0);
+  Effort effort;
   for (Index k = 0; k < ordered.cols(); ++k) {
     seen[static_cast<std::size_t>(k)] = k;
     for (SparseMatrix::InnerIterator e(ordered, k); e; ++e) {
@@ -44,11 +54,25 @@ bool fills_too_much(const SparseMatrix& a) {
         const auto at = static_cast<std::size_t>(i);
         if (parent[at] < 0) parent[at] = k;
         seen[at] = k;
-        if (++fill > kMostFill) return true;
+        effort.products += column[at] + 0.5;
+        column[at] += 1.0;
+        if (++effort.numbers > kMostFill) return effort;
       }
     }
   }
-  return false;
+  return effort;
+}
+
+/// Whether a dense factor of `rows` has room and takes less time than a sparse one.
+bool is_better_dense(const Effort& effort, Index rows) {
+  const auto n = static_cast<double>(rows);
+  return n * n <= 2.0 * kMostFill && 10.0 * effort.products > n * n * n / 6.0;
+}
+
+bool has_dense_factor(const SparseMatrix& a, double shift) {
+  Eigen::MatrixXd full{a};
+  full.diagonal().array() += shift;
+  return Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>>{full}.info() == Eigen::Success;
 }
 
 /// The least eigenvalue that Lanczos finds from `start`.
@@ -113,7 +137,16 @@ std::optional<Indefinite> find_indefinite(const SparseMatrix& a) {
   const double diagonal = std::max(0.0, Vector{unit.diagonal()}.maxCoeff()), shift = kSemidefinite * diagonal;
   Vector start = any_vector(a.rows());
   bool shown = diagonal == 0.0;  // and some number beside it
-  if (!shown && a.rows() <= kMostRows && !fills_too_much(unit)) {
+  Effort effort;
+  if (!shown && a.rows() <= kMostRows) {
+    effort = effort_of(unit);
+    if (is_better_dense(effort, a.rows())) {
+      if (has_dense_factor(unit, shift)) return {};
+      shown = true;
+    }
+  }
+  const bool has_room = effort.numbers <= kMostFill && effort.products <= kMostProducts;
+  if (diagonal > 0.0 && a.rows() <= kMostRows && has_room) {
     Eigen::SimplicialLDLT<SparseMatrix> factor;
     factor.setShift(shift);
     factor.compute(unit);

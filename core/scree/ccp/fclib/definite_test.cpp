@@ -113,6 +113,36 @@ TEST(find_indefinite, does_not_factorise_what_fills_the_memory) {
   EXPECT_GE(found->eigenvalue, -5.0);
 }
 
+// d on the diagonal and -1 everywhere else: eigenvalues d + 1, and d + 1 - n once. A sparse factor of so many numbers would take
+// ten seconds; d = n - 1 is singular and valid, d = n - 2 is below zero by a share of 1 / n.
+TEST(find_indefinite, decides_full_matrices_of_thousands_of_rows) {
+  constexpr Index kRows = 3200;
+  Matrix a = Matrix::Constant(kRows, kRows, -1.0);
+  a.diagonal().setConstant(kRows - 1.0);
+  EXPECT_FALSE(find_indefinite(a.sparseView()));
+  a.diagonal().setConstant(kRows - 2.0);
+  const auto found = find_indefinite(a.sparseView());
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->eigenvalue, -1.0, 1e-12 * kRows);
+}
+
+// Random full matrices of rank 20, and a little below.
+TEST(find_indefinite, agrees_with_dense_eigenvalues_of_full_matrices) {
+  std::mt19937_64 random{5};
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 10; ++k) {
+    Matrix h(20, 200);
+    for (double& x : h.reshaped()) x = normal(random);
+    const Matrix singular = h.transpose() * h;
+    const double rounding = kSemidefinite * singular.diagonal().maxCoeff();
+    EXPECT_FALSE(find_indefinite(singular.sparseView())) << k;
+    const Matrix below = singular - 3.0 * rounding * Matrix::Identity(200, 200);
+    const auto found = find_indefinite(below.sparseView());
+    ASSERT_TRUE(found) << k;
+    EXPECT_GE(found->eigenvalue, least_eigenvalue(below) - 1e-12 * singular.norm());
+  }
+}
+
 TEST(find_bad_pivot, agrees_with_dense_eigenvalues) {
   std::mt19937_64 random{4};
   int good = 0;

@@ -24,8 +24,9 @@ struct Indefinite {
 inline constexpr double kSemidefinite = 1e-9;
 
 /// What shows that the symmetric `a` has an eigenvalue below -kSemidefinite times its largest diagonal; nothing when it has
-/// none. Certain up to 100 000 rows as long as the factor of L D L^T fills no more than 30 million numbers. Beyond, 60 steps
-/// of Lanczos look for one, which find those that are not small beside the largest eigenvalue.
+/// none. Certain up to 100 000 rows as long as the factor of L D L^T fills no more than 30 million numbers and takes no more than
+/// 5e9 products, and for up to 7700 rows however full. Beyond, 60 steps of Lanczos look for one, which find those that are not
+/// small beside the largest eigenvalue.
 [[nodiscard]] std::optional<Indefinite> find_indefinite(const SparseMatrix& a);
 
 /// A pivot that a positive definite matrix does not have.
