@@ -29,14 +29,19 @@ void check(const CheckOptions& options) {
   const auto tell_warnings = [&] {
     for (const std::string& sentence : log_watch.news(simulation.log())) warn(sentence);
   };
+  const auto tell_untold = [&] {
+    if (log_watch.untold() > 0) warn(fmt::format("{} more", log_watch.untold()));
+  };
   tell_warnings();
   if (options.resolved) {
+    tell_untold();
     say("{}\n", simulation.resolved_scene());
     return;
   }
   const std::size_t at_the_start = simulation.bodies().size();
   simulation.try_first_step();
   tell_warnings();
+  tell_untold();
   say("{}: can run, {:.6g} s in steps of {:.6g} s; {} at the start\n", options.scene.string(), simulation.end_time(),
       simulation.time_step(), counted(at_the_start, "body", "bodies"));
   for (const PartInfo& part : simulation.parts()) say("  {}\n", part.label_with_library());

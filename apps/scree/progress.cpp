@@ -38,8 +38,10 @@ std::string progress_line(const ProgressState& now, double start_time) {
   const double done = share_done(now.time, start_time, now.end_time);
   std::string line = fmt::format("{:.4g} of {:.4g} s ({:.0f} %), {}, {}", now.time, now.end_time, 100.0 * done,
                                  counted(now.bodies, "body", "bodies"), counted(now.contacts, "contact", "contacts"));
-  line += now.is_soft ? fmt::format(", {} sub-steps", now.iterations)
-                      : fmt::format(", {} iterations, residual {:.1e} m/s", now.iterations, now.residual);
+  const auto iterations = static_cast<std::size_t>(now.iterations);
+  line += now.is_soft
+              ? ", " + counted(iterations, "sub-step", "sub-steps")
+              : fmt::format(", {}, residual {:.1e} m/s", counted(iterations, "iteration", "iterations"), now.residual);
   if (done <= 0.0 || now.wall_time <= 0.0) return line;
   line += fmt::format(", {:.2g} x real time, {} left", (now.time - start_time) / now.wall_time,
                       duration_text(now.wall_time * (1.0 - done) / done));

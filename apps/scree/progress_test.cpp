@@ -19,6 +19,13 @@ TEST(progress, a_line_of_soft_contacts_tells_sub_steps) {
             "1.25 of 5 s (25 %), 12034 bodies, 30211 contacts, 45 sub-steps, 0.021 x real time, 3 min 0 s left");
 }
 
+TEST(progress, a_line_counts_one_thing_as_one) {
+  EXPECT_EQ(progress_line({1.25, 5.0, 1, 1, 1, 0.0, 0.0}, 0.0),
+            "1.25 of 5 s (25 %), 1 body, 1 contact, 1 iteration, residual 0.0e+00 m/s");
+  EXPECT_EQ(progress_line({1.25, 5.0, 1, 1, 1, 0.0, 0.0, true}, 0.0),
+            "1.25 of 5 s (25 %), 1 body, 1 contact, 1 sub-step");
+}
+
 TEST(progress, a_resumed_run_counts_from_where_it_began) {
   // From 4 s to 5 s, half of it done in 10 s: 10 s more, 0.05 of real time.
   const ProgressState now{4.5, 5.0, 1, 0, 0, 0.0, 10.0};

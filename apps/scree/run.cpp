@@ -59,8 +59,10 @@ int Run::to_the_end() {
     return exit_code;
   } catch (const Error& failure) {
     progress_.end_line();
+    const bool saved = finish_failed(failure);
     tell_warnings();
-    if (!finish_failed(failure)) throw;
+    tell_untold();
+    if (!saved) throw;
     std::string where = fmt::format("{}; the last good state, at {:.6g} s, is in {}, without what contacts remember",
                                     failure.what(), simulation_.time(), (options_.output / kLastStateFile).string());
     if (has_checkpoint_) {
@@ -104,6 +106,11 @@ void Run::tell_warnings() {
   }
 }
 
+void Run::tell_untold() const {
+  if (log_watch_.untold() == 0) return;
+  warn(fmt::format("{} more in {}, under \"log\"", log_watch_.untold(), (options_.output / kRunFile).string()));
+}
+
 void Run::report_recording() const {
   for (const std::uint64_t step : recording_.steps()) {
     if (step > simulation_.steps()) continue;
@@ -132,9 +139,7 @@ void Run::finish(int exit_code, const std::string& outcome) {
   removed_log_.close();
   if (joint_log_) joint_log_->close();
   write_record(exit_code, outcome);
-  if (log_watch_.untold() > 0) {
-    warn(fmt::format("{} more in {}, under \"log\"", log_watch_.untold(), (options_.output / kRunFile).string()));
-  }
+  tell_untold();
 }
 
 /// Saves what can be saved, and tells whether the last good state is. A second failure, on a full disk say, would only hide

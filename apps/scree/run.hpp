@@ -34,6 +34,7 @@ class Run {
   bool steps_to_the_end(const InterruptWatch& watch);
   void after_step(const StepRecord& step);
   void tell_warnings();
+  void tell_untold() const;
   void save_checkpoint();
   void report_recording() const;
   void finish(int exit_code, const std::string& outcome);

@@ -160,8 +160,8 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t end = point.find_first_not_of("+-.0123456789");
   const bool plain = std::ranges::count(point.substr(0, end), '.') == 1 && (end == point.npos || point[end] != ',');
   if (!plain) refuse(text, "has a comma, which numbers have not; a point stands before decimals", unit);
-  throw Error{ErrorKind::usage, "\"" + std::string{text.substr(0, 80)} + "\" has a decimal comma; write \"" +
-                                    point.substr(0, 80) + "\""};
+  throw Error{ErrorKind::usage,
+              "\"" + std::string{text.substr(0, 80)} + "\" has a decimal comma; write \"" + point.substr(0, 80) + "\""};
 }
 
 // "a length in m" has no name here: the SI unit names the dimension.
