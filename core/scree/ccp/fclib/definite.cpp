@@ -106,12 +106,12 @@ Vector any_vector(Index rows) {
   return out;
 }
 
-/// The first k that is not above `least`; below zero when there is none.
+/// The first k whose pivot is not above `least`(k); below zero when there is none.
 template <class Least>
-Index first_low_pivot(const Eigen::SimplicialLDLT<SparseMatrix>& factor, Index rows, const Least& least) {
+Index first_low_pivot(const Vector& pivots, const Least& least) {
   // A zero ends the factorisation: nothing behind it counts.
-  for (Index k = 0; k < rows; ++k) {
-    if (!(factor.vectorD()[k] > least(k))) return k;
+  for (Index k = 0; k < pivots.size(); ++k) {
+    if (!(pivots[k] > least(k))) return k;
   }
   return -1;
 }
@@ -150,7 +150,7 @@ std::optional<Indefinite> find_indefinite(const SparseMatrix& a) {
     Eigen::SimplicialLDLT<SparseMatrix> factor;
     factor.setShift(shift);
     factor.compute(unit);
-    const Index k = first_low_pivot(factor, a.rows(), [](Index) { return 0.0; });
+    const Index k = first_low_pivot(factor.vectorD(), [](Index) { return 0.0; });
     if (k < 0) return {};
     shown = true;
     if (factor.info() == Eigen::Success) {
@@ -168,9 +168,10 @@ std::optional<BadPivot> find_bad_pivot(const SparseMatrix& a) {
   const Vector diagonal = a.diagonal();
   const auto row_of = [&](Index k) { return Index{factor.permutationPinv().indices()[k]}; };
   const auto least = [&](Index at) { return std::max(0.0, kPivotRounding * diagonal[row_of(at)]); };
-  const Index k = first_low_pivot(factor, a.rows(), least);
+  const Vector pivots = factor.vectorD();  // a copy, whoever asks
+  const Index k = first_low_pivot(pivots, least);
   if (k < 0) return {};
-  return BadPivot{row_of(k), factor.vectorD()[k]};
+  return BadPivot{row_of(k), pivots[k]};
 }
 
 }  // namespace scree
