@@ -17,6 +17,7 @@ printed by `scree plugins show KIND:NAME` for one plugin, and `scree schema > sc
 
 - A number is SI; a string carries its unit: `0.003` or `"3 mm"`. The unit in a row is what the number means and the string must have.
 - *required* stands where a setting has no default. A dash: left out, the setting has no effect.
+- Where a value is a table of some type, the type alone is one with all its defaults: `shape = "sphere"`, unless something in it is *required*.
 - `[[name]]` may be there several times; `[name.NAME]` is referred to by its NAME; `[name]` is there once.
 - `include = "other.toml"` builds on another scene; what is said here replaces what it says. How scenes are run:
   [run a scene](run_a_scene.md).
