@@ -51,6 +51,9 @@ def mean_and_error(values):
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    heap = grains(Run(sys.argv[1]).table("track.csv"))
+    try:
+        heap = grains(Run(sys.argv[1]).table("track.csv"))
+    except FileNotFoundError as missing:
+        sys.exit(f"{missing.filename}: no such file; RESULTS is the folder of a run of a scene that has an observer `track`")
     angle, error = mean_and_error(angles(heap))
     print(f"{len(heap)} grains, angle of repose {angle:.1f} +- {error:.1f} degrees")
