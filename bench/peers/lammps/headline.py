@@ -30,12 +30,11 @@ tolerance = 1e-3
 max_iterations = {iterations}
 active_set = false
 check_interval = {iterations}
-order = "{order}"
 """
 
 
-def solver(iterations, cores):
-    return SOLVER.format(iterations=iterations, order="serial" if cores == 1 else "coloured")
+def solver(iterations):
+    return SOLVER.format(iterations=iterations)
 
 
 def make_drum(wanted, folder, rows):
@@ -45,7 +44,7 @@ def make_drum(wanted, folder, rows):
         loose = folder / "loose.txt"
         drum = grains.Drum(len(rows))
         grains.write_bed(loose, grains.loose_filling([row[3] for row in rows], drum), 2 * drum.radius)
-        options = {"prefix": [], "recovery": 0.05, "solver": solver(40, 1)}
+        options = {"prefix": [], "recovery": 0.05, "solver": solver(40)}
         scree = Scree(wanted.program, folder, "drum", loose, 1, options)
         out = scree.run("drum_filling", 2.0, [], interval=2.0)
         grains.write_bed(path, read_particles(sorted(out.glob("particles_*.vtp"))[-1]), 2 * drum.radius)
@@ -69,7 +68,7 @@ def compare(wanted, folder, scene, bed):
     prefix = shlex.split(wanted.prefix)
     contestants = []
     for cores in wanted.cores:
-        options = {"prefix": prefix, "recovery": RECOVERY, "solver": solver(wanted.iterations, cores)}
+        options = {"prefix": prefix, "recovery": RECOVERY, "solver": solver(wanted.iterations)}
         contestants.append((Scree(wanted.program, folder / f"{scene}_{cores}", scene, bed, cores, options),
                             Lammps(wanted.lammps, folder / f"{scene}_{cores}", scene, rows, side, cores, prefix)))
         contestants[-1][0].start(wanted.warm_up)

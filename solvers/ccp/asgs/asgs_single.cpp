@@ -102,7 +102,7 @@ bool Asgs::plan_single(bool uphill) {
 void Asgs::descend_single(const SolveContext& context, SolveSummary& summary) {
   const double goal = single_goal(context.tolerance), start = objective_;
   if (!std::isfinite(goal) || context.max_iterations < 2) return;
-  single_.start(delassus_.problem(), x_, w_);
+  single_.start(delassus_.problem(), x_, w_, context.executor);
   double before = start, least = summary.residual;
   int next_look = 2, last_look = 0, found = 0;
   bool going = true, uphill = false, looked = false;

@@ -71,7 +71,7 @@ TEST(asgs_single, objective_is_that_of_the_impulses_and_undo_returns_to_those_be
   delassus.bind(problem, nullptr);
   SingleSweep sweep;
   std::vector<double> gamma(problem.rows(), 0.0), before(gamma);
-  sweep.start(problem, gamma, std::vector<Twist>(problem.bodies()));
+  sweep.start(problem, gamma, std::vector<Twist>(problem.bodies()), nullptr);
   double last = 0.0;
   for (int pair = 0; pair < 12; ++pair) {
     const double objective = sweep.advance(1.0);

@@ -1,16 +1,19 @@
 #include "single_sweep.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "scree/ccp/cone3.hpp"
 #include "scree/ccp/sweep/local_step.hpp"
 #include "scree/math/contact_frame.hpp"
 #include "scree/math/lanes.hpp"
+#include "scree/parallel/executor.hpp"
 
 namespace scree {
 namespace {
 
-constexpr std::size_t kAhead = 3;  // groups whose bodies are asked for early
+constexpr std::size_t kAhead = 3;    // groups whose bodies are asked for early
+constexpr std::size_t kGrain = 256;  // groups that a thread fills at a time
 
 void put(single::Lanes3& lanes, std::size_t k, const Vec3& v) {
   lanes.x[k] = static_cast<float>(v.x), lanes.y[k] = static_cast<float>(v.y), lanes.z[k] = static_cast<float>(v.z);
@@ -38,17 +41,28 @@ bool SingleSweep::takes(const CcpProblem& problem) {
          std::all_of(problem.inverse_inertia.begin(), problem.inverse_inertia.end(), is_isotropic);
 }
 
-void SingleSweep::start(const CcpProblem& problem, std::span<const double> gamma, std::span<const Twist> w) {
+template <class Visit>
+void SingleSweep::for_groups(const Visit& visit) const {
+  const auto several = [&](std::size_t first, std::size_t last) {
+    for (std::size_t at = first; at < last; ++at) visit(at);
+  };
+  if (executor_ == nullptr) return several(0, groups_.size());
+  executor_->for_chunks(groups_.size(), kGrain, std::cref(several));
+}
+
+void SingleSweep::start(const CcpProblem& problem, std::span<const double> gamma, std::span<const Twist> w,
+                        const Executor* executor) {
+  executor_ = executor;
   sequence_.build_spread(problem);
   grouping_.build(problem, sequence_);
   fill(problem);
-  for (std::size_t at = 0; at < groups_.size(); ++at) {
+  for_groups([&](std::size_t at) {
     for (std::size_t k = 0; k < 8; ++k) {
       const std::uint32_t i = grouping_.groups[at][k];
       if (i != sweep::kNoContact) scree::put(groups_[at].g, k, load_block(gamma, i));
     }
     history_[at] = {groups_[at].g, groups_[at].g};
-  }
+  });
   y_.assign(bodies_count_ + 1, single::Body{});
   old_ = y_;
   correct(w);
@@ -68,15 +82,16 @@ void SingleSweep::fill(const CcpProblem& problem) {
     bodies_[k][3] = static_cast<float>(problem.inverse_mass[k]);
     bodies_[k][7] = static_cast<float>(problem.inverse_inertia[k].row0.x);
   }
-  groups_.assign(grouping_.groups.size(), single::Group{});
+  groups_.resize(grouping_.groups.size());
   history_.resize(groups_.size());
-  for (std::size_t at = 0; at < groups_.size(); ++at) {
+  for_groups([&](std::size_t at) {
+    groups_[at] = single::Group{};
     groups_[at].a.fill(static_cast<std::uint32_t>(bodies_count_));
     groups_[at].b.fill(static_cast<std::uint32_t>(bodies_count_));
     for (std::size_t k = 0; k < 8; ++k) {
       if (grouping_.groups[at][k] != sweep::kNoContact) put(problem, at, k, grouping_.groups[at][k]);
     }
-  }
+  });
 }
 
 void SingleSweep::put(const CcpProblem& problem, std::size_t at, std::size_t lane, std::uint32_t i) {
@@ -209,14 +224,14 @@ bool SingleSweep::choose() {
 }
 
 void SingleSweep::impulses(const CcpProblem& problem, std::span<double> gamma) const {
-  for (std::size_t at = 0; at < groups_.size(); ++at) {
+  for_groups([&](std::size_t at) {
     const single::Lanes3& g = groups_[at].g;
     for (std::size_t k = 0; k < 8; ++k) {
       const std::uint32_t i = grouping_.groups[at][k];
       if (i == sweep::kNoContact) continue;
       store_block(gamma, i, project_cone3({g.x[k], g.y[k], g.z[k]}, problem.contacts[i].friction));
     }
-  }
+  });
 }
 
 void SingleSweep::correct(std::span<const Twist> w) {

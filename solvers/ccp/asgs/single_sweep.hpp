@@ -17,6 +17,8 @@
 
 namespace scree {
 
+class Executor;
+
 /// Keeps its memory between problems: 130 bytes a contact, 96 a body.
 class SingleSweep {
  public:
@@ -24,8 +26,10 @@ class SingleSweep {
   static constexpr double kRounding = 1e-5;
 
   [[nodiscard]] static bool takes(const CcpProblem& problem);
-  /// Starts from the impulses `gamma` [N s], whose bodies have the velocities `w`.
-  void start(const CcpProblem& problem, std::span<const double> gamma, std::span<const Twist> w);
+  /// Starts from the impulses `gamma` [N s], whose bodies have the velocities `w`. Threads of the `executor`, where there is one, fill
+  /// the groups and fetch the impulses.
+  void start(const CcpProblem& problem, std::span<const double> gamma, std::span<const Twist> w,
+             const Executor* executor);
 
   /// A pair of sweeps from y to z. Returns the objective of z [J]. Updates of the second that a velocity above `speed` [m/s] asked for
   /// are counted.
@@ -52,6 +56,9 @@ class SingleSweep {
   struct History {
     single::Lanes3 y, old;
   };
+  /// Calls visit(at) for each group, several at a time.
+  template <class Visit>
+  void for_groups(const Visit& visit) const;
   void fill(const CcpProblem& problem);
   void put(const CcpProblem& problem, std::size_t at, std::size_t lane, std::uint32_t i);
   template <bool momentum>
@@ -62,6 +69,7 @@ class SingleSweep {
   void go_with_momentum();
   void measure();
 
+  const Executor* executor_ = nullptr;
   sweep::Sequence sequence_;
   sweep::GroupingOf<8> grouping_;
   std::size_t bodies_count_ = 0;

@@ -1,6 +1,7 @@
 #include "dvi.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "rotation.hpp"
 #include "scree/base/release.hpp"
@@ -13,8 +14,19 @@
 namespace scree {
 
 namespace {
+
 constexpr std::size_t kGrain = 2048;
+
+/// Calls visit(k) for each k below `count`, several at a time.
+template <class Visit>
+void for_each_of(std::size_t count, const Executor& executor, const Visit& visit) {
+  const auto several = [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) visit(k);
+  };
+  executor.for_chunks(count, kGrain, std::cref(several));
 }
+
+}  // namespace
 
 Dvi::Dvi(const Options& options)
     : Dvi{DviOptions{.limits = {options.number("recovery_speed"), options.number("min_bounce_speed")},
@@ -153,33 +165,33 @@ void Dvi::settle_joints(Machine& machine) {
   }
 }
 
-void Dvi::find_keys(const BodyView& bodies) {
+void Dvi::find_keys(const BodyView& bodies, const Executor& executor) {
   const std::span<const Contact> contacts = assembly_.contacts();
   keys_.resize(contacts.size());
-  for (std::size_t k = 0; k < contacts.size(); ++k) keys_[k] = contact_key(bodies, contacts[k]);
+  for_each_of(contacts.size(), executor, [&](std::size_t k) { keys_[k] = contact_key(bodies, contacts[k]); });
 }
 
-void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
+void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, const Executor& executor, double dt) {
   gamma_.assign(problem.rows(), 0.0);
   if (options_.warm_start) {
     std::ranges::copy(joint_guess_, gamma_.begin() + static_cast<std::ptrdiff_t>(assembly_.first_joint_row()));
   }
   if (!options_.warm_start || memory_.size() == 0) return;
-  find_keys(bodies);
+  find_keys(bodies, executor);
   const std::size_t m = keys_.size();
   world_impulse_.resize(m);
   world_angular_impulse_.resize(assembly_.rolls() ? m : 0);
   memory_.recall(keys_, world_impulse_, world_angular_impulse_);
   // A resting contact's impulse goes with the step.
   const double scale = dt / memory_dt_;
-  for (std::size_t k = 0; k < m; ++k) {
+  for_each_of(m, executor, [&](std::size_t k) {
     const CcpContact& c = assembly_.geometry(k);
     const std::span<double> rows = std::span{gamma_}.subspan(assembly_.first_row(k));
     store_block(rows, 0, in_frame(c, scale * world_impulse_[k]));
     const dvi::RollingContact* rolling = assembly_.rolling(k);
-    if (rolling == nullptr) continue;
+    if (rolling == nullptr) return;
     store_block(rows, 1, in_frame(c, (scale / rolling->length) * world_angular_impulse_[k]));
-  }
+  });
   if (m < kManyRecords) return;
   // The solver needs the room; remember() makes them anew.
   memory_.clear();
@@ -188,7 +200,7 @@ void Dvi::recall(const BodyView& bodies, const CcpProblem& problem, double dt) {
 
 void Dvi::solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt) {
   const CcpProblem problem = assembly_.problem();
-  recall(bodies, problem, dt);
+  recall(bodies, problem, services.executor(), dt);
   if (problem.empty()) {
     w_.assign(problem.bodies(), Twist{});  // bodies whose joints are gone
     return;
@@ -219,8 +231,8 @@ void Dvi::finish(StepServices& services, const BodyView& bodies, StepSummary& su
   measure_overlap(bodies, summary);
   // Also when all joints are gone, so that the machine says so.
   if (Machine* machine = services.machine(); machine != nullptr && !machine->empty()) settle_joints(*machine);
-  keep_results(bodies);
-  remember(bodies, dt);
+  keep_results(bodies, services.executor());
+  remember(bodies, services.executor(), dt);
   summary.work =
       dvi::step_work({bodies, velocity_, angular_velocity_}, assembly_,
                      {std::span{w_}.first(problem.bodies()), impulse_, angular_impulse_}, services.executor(), work_);
@@ -234,7 +246,7 @@ void Dvi::finish(StepServices& services, const BodyView& bodies, StepSummary& su
 }
 
 // While velocity_ is still that of the free motion.
-void Dvi::keep_results(const BodyView& bodies) {
+void Dvi::keep_results(const BodyView& bodies, const Executor& executor) {
   const std::size_t m = assembly_.contacts().size();
   impulse_.resize(m);
   before_.resize(m);
@@ -244,7 +256,7 @@ void Dvi::keep_results(const BodyView& bodies) {
     const BodyIndex body = assembly_.bodies()[number];
     return Twist{velocity_[body], angular_velocity_[body]};
   };
-  for (std::size_t k = 0; k < m; ++k) {
+  for_each_of(m, executor, [&](std::size_t k) {
     const CcpContact& c = assembly_.geometry(k);
     const std::span<const double> rows = std::span<const double>{gamma_}.subspan(assembly_.first_row(k));
     impulse_[k] = load_block(rows, 0);
@@ -252,20 +264,20 @@ void Dvi::keep_results(const BodyView& bodies) {
     after_[k] = before_[k] + relative_velocity(c, w_[c.a], w_[c.b]);
     const dvi::RollingContact* rolling = assembly_.rolling(k);
     if (rolling != nullptr) angular_impulse_[k] = rolling->length * load_block(rows, 1);
-  }
+  });
 }
 
-void Dvi::remember(const BodyView& bodies, double dt) {
+void Dvi::remember(const BodyView& bodies, const Executor& executor, double dt) {
   if (!options_.warm_start) return;
-  find_keys(bodies);
+  find_keys(bodies, executor);
   const std::size_t m = keys_.size();
   world_impulse_.resize(m);
   world_angular_impulse_.resize(angular_impulse_.size());
-  for (std::size_t k = 0; k < m; ++k) {
+  for_each_of(m, executor, [&](std::size_t k) {
     const CcpContact& c = assembly_.geometry(k);
     world_impulse_[k] = in_world(c, impulse_[k]);
     if (!angular_impulse_.empty()) world_angular_impulse_[k] = in_world(c, angular_impulse_[k]);
-  }
+  });
   memory_.store(keys_, world_impulse_, world_angular_impulse_);
   memory_dt_ = dt;
 }

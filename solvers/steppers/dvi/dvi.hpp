@@ -59,10 +59,10 @@ class Dvi final : public TimeStepper {
   void settle_joints(Machine& machine);
   void solve(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt);
   void finish(StepServices& services, const BodyView& bodies, StepSummary& summary, double dt);
-  void recall(const BodyView& bodies, const CcpProblem& problem, double dt);
-  void find_keys(const BodyView& bodies);
-  void keep_results(const BodyView& bodies);
-  void remember(const BodyView& bodies, double dt);
+  void recall(const BodyView& bodies, const CcpProblem& problem, const Executor& executor, double dt);
+  void find_keys(const BodyView& bodies, const Executor& executor);
+  void keep_results(const BodyView& bodies, const Executor& executor);
+  void remember(const BodyView& bodies, const Executor& executor, double dt);
   void release_step();
   void measure_overlap(const BodyView& bodies, StepSummary& summary) const;
   [[nodiscard]] FreeStep free_step(const BodyView& bodies, BodyIndex i, const Twist& velocity, double dt) const;
