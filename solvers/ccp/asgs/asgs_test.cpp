@@ -72,18 +72,19 @@ TEST(asgs, pairs_that_end_uphill_are_undone_and_the_solve_converges) {
   EXPECT_GT(undone, 0);
 }
 
-/// A body that is welded to the world, and three stops that it has left: solved by any impulses of the weld with none of the stops, and what
-/// these begin with goes to the weld without a change of any velocity, along an objective that falls until they let go.
-struct LeftStops {
+/// A problem, and the impulses that its solve begins with [N s].
+struct Posed {
   TestingProblem problem;
   std::vector<double> guess;
 };
 
-LeftStops left_stops(std::uint64_t seed) {
+/// A body that is welded to the world, and three stops that it has left: solved by any impulses of the weld with none of the stops, and what
+/// these begin with goes to the weld without a change of any velocity, along an objective that falls until they let go.
+Posed left_stops(std::uint64_t seed) {
   std::mt19937_64 random{seed};
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vec3{normal(random), normal(random), normal(random)}; };
-  LeftStops out;
+  Posed out;
   const std::uint32_t world = out.problem.add_immovable(), body = out.problem.add_body(4.0, {0.6, 0.4, 0.6});
   const Twist motion{vector(), vector()};  // that the weld asks for
   const auto speed = [&](const CcpRow& row) {
@@ -105,7 +106,7 @@ LeftStops left_stops(std::uint64_t seed) {
 // The minimum over a plane then lies nowhere: to go far would leave impulses so large that nothing is known of velocities any more.
 TEST(asgs, impulses_that_change_no_velocity_are_not_followed_without_end) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    LeftStops stops = left_stops(seed);
+    Posed stops = left_stops(seed);
     SolveContext context;
     context.tolerance = 1e-10;
     context.max_iterations = 20000;
@@ -117,17 +118,12 @@ TEST(asgs, impulses_that_change_no_velocity_are_not_followed_without_end) {
 
 /// Bodies that are each held by the same joint twice, with stops along some of its rows between both: N is singular, and what it does not
 /// feel goes from the joints to the stops, which can only push. The guess is far from what the bodies' velocities ask for.
-struct HeldTwice {
-  TestingProblem problem;
-  std::vector<double> guess;
-};
-
-HeldTwice held_twice(std::uint64_t seed) {
+Posed held_twice(std::uint64_t seed) {
   std::mt19937_64 random{seed};
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform{0.0, 1.0};
   const auto vector = [&] { return Vec3{normal(random), normal(random), normal(random)}; };
-  HeldTwice out;
+  Posed out;
   const std::uint32_t world = out.problem.add_immovable();
   for (int k = 0; k < 2; ++k) {
     const double m = std::pow(10.0, 3.0 * uniform(random) - 1.5);
@@ -155,7 +151,7 @@ HeldTwice held_twice(std::uint64_t seed) {
 TEST(asgs, steps_that_cones_take_back_leave_no_impulses_that_cancel) {
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     for (const double tolerance : {1e-6, 1e-10}) {
-      HeldTwice held = held_twice(seed);
+      Posed held = held_twice(seed);
       SolveContext context;
       context.tolerance = tolerance;
       context.max_iterations = 20000;

@@ -4,7 +4,7 @@
 // at 1e-7 of the velocities; what is asked for is mostly far above. The answer is looked at, and judged, in double precision, and what
 // is not done then is done by double sweeps.
 //
-// Contacts only, without compliance, between bodies whose inverse inertia is a multiple of the identity; in the order of the
+// Contacts only, without compliance, between bodies whose inverse inertia is a multiple of the identity; swept in the order of the
 // contacts, on the calling thread. The terms are those of conjugate_steps.hpp. When these steps have failed, Nesterov's follow.
 #pragma once
 
@@ -69,7 +69,7 @@ class SingleSweep {
   void go_with_momentum();
   void measure();
 
-  const Executor* executor_ = nullptr;
+  const Executor* executor_ = nullptr;  ///< that of the last start()
   sweep::Sequence sequence_;
   sweep::GroupingOf<8> grouping_;
   std::size_t bodies_count_ = 0;
